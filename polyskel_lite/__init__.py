@@ -1,0 +1,49 @@
+"""Continuous skeletons from the Voronoi graph of boundary samples (Attali & Montanvert, CVIU 1997)."""
+
+from . import datasets
+from .complexes import Skeleton
+from .conforming import DelaunayShape, conform, delaunay_shape, missing_facets
+from .distances import directed_hausdorff, hausdorff
+from .errors import (
+    ContourContainmentError,
+    DuplicatePointError,
+    InputError,
+    PolyskelError,
+    ReconstructionError,
+    ShapeError,
+    TessellationError,
+)
+from .graphs import Tessellation, delaunay, gabriel, voronoi
+from .polyballs import Polyball
+from .reconstruction import reconstruct_curve
+from .shapes import Shape
+from .skeletons import sk0, sk1, sk2, sk3
+
+__all__ = [
+    "ContourContainmentError",
+    "DelaunayShape",
+    "DuplicatePointError",
+    "InputError",
+    "Polyball",
+    "PolyskelError",
+    "ReconstructionError",
+    "Shape",
+    "ShapeError",
+    "Skeleton",
+    "Tessellation",
+    "TessellationError",
+    "conform",
+    "datasets",
+    "delaunay",
+    "delaunay_shape",
+    "directed_hausdorff",
+    "gabriel",
+    "hausdorff",
+    "missing_facets",
+    "reconstruct_curve",
+    "sk0",
+    "sk1",
+    "sk2",
+    "sk3",
+    "voronoi",
+]

@@ -1,0 +1,167 @@
+"""Delaunay simplices that pass an exact check: Qhull first, slower methods for what it gets wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import ConvexHull, Delaunay, QhullError
+
+from ._incremental import incremental_delaunay
+from .errors import TessellationError
+from .predicates import in_ball, orientation
+
+
+def triangulate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of distinct points; exact.
+
+    Raises
+    ------
+    TessellationError
+        If there is no tessellation, or none that passes `problem`.
+
+    Examples
+    --------
+    >>> triangulate(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))[1].tolist()
+    [[-1, -1, -1]]
+    """
+    n, dimension = points.shape
+    if n <= dimension:
+        raise TessellationError(f"{n} points in {dimension}D; a tessellation needs at least {dimension + 1}.")
+    reason = ""
+    for candidate in _candidates(points):
+        try:
+            simplices, neighbors = candidate()
+        except QhullError as error:
+            reason = str(error).strip().splitlines()[0]
+            continue
+        if not len(simplices):
+            reason = "all simplices are flat"
+            continue
+        reason = problem(points, simplices, neighbors)
+        if not reason:
+            return _canonical(points, simplices, neighbors)
+    if _flat(points):
+        where = "line" if dimension == 2 else "plane"
+        raise TessellationError(f"all {n} points are in one {where}; add a point outside of it.")
+    raise TessellationError(f"no Delaunay tessellation passed the exact check ({reason}).")
+
+
+def _candidates(points):
+    centred = points - (points.min(axis=0) + points.max(axis=0)) / 2
+    scale = np.abs(centred).max()
+    centred = centred / scale if scale > 0 else centred
+    yield lambda: _orient(points, *_qhull(centred))
+    if points.shape[1] == 2:
+        yield lambda: incremental_delaunay(points)
+        return
+    # Heights of the lifted points moved by next to nothing: cospherical sets get a regular
+    # tessellation of their own, whose simplices are not flat. The check decides if it was too much.
+    for tiny in (1e-12, 1e-10, 1e-8):
+        yield lambda tiny=tiny: _orient(points, *_lifted(centred, tiny))
+
+
+def _qhull(points):
+    tessellation = Delaunay(points)
+    return tessellation.simplices.astype(np.int64), tessellation.neighbors.astype(np.int64)
+
+
+def _lifted(points, tiny):
+    noise = np.random.default_rng(0).random(len(points)) * tiny
+    hull = ConvexHull(np.column_stack([points, (points**2).sum(axis=1) + noise]))
+    lower = hull.equations[:, -2] < 0
+    return _keep(hull.simplices.astype(np.int64), hull.neighbors.astype(np.int64), lower)
+
+
+def _keep(simplices, neighbors, keep):
+    new = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
+    return simplices[keep], new[neighbors[keep]]
+
+
+def _orient(points, simplices, neighbors):
+    """Drop flat simplices of the hull, layer by layer, and make the others positive."""
+    sign = orientation(points[simplices])
+    while len(simplices) and (peel := (sign == 0) & (neighbors < 0).any(axis=1)).any():
+        simplices, neighbors = _keep(simplices, neighbors, ~peel)
+        sign = sign[~peel]
+    swap = np.flatnonzero(sign < 0)
+    for array in (simplices, neighbors):
+        array[swap, :2] = array[swap, 1::-1]
+    return simplices, neighbors
+
+
+def _canonical(points, simplices, neighbors):
+    """The same tessellation in one order: rows and vertices increasing, but for the last two of odd simplices."""
+    inside = np.argsort(simplices, axis=1)
+    simplices, neighbors = (np.take_along_axis(array, inside, axis=1) for array in (simplices, neighbors))
+    odd = np.flatnonzero(orientation(points[simplices]) < 0)
+    for array in (simplices, neighbors):
+        array[odd, -2:] = array[odd, :-3:-1]
+    order = np.lexsort(simplices.T[::-1])
+    new = np.append(np.argsort(order), -1)
+    return simplices[order], new[neighbors[order]]
+
+
+def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) -> str:
+    """What keeps these simplices from being a Delaunay tessellation of the points, or ''; exact.
+
+    Examples
+    --------
+    >>> points = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.2, 0.2]])
+    >>> problem(points, np.array([[0, 1, 2]]), np.array([[-1, -1, -1]]))
+    'point 3 is not used'
+    """
+    used = np.zeros(len(points), dtype=bool)
+    used[simplices] = True
+    if not used.all():
+        return f"point {np.flatnonzero(~used)[0]} is not used"
+    if (orientation(points[simplices]) <= 0).any():
+        return "a simplex is flat"
+    corners = simplices.shape[1]
+    first, local = np.nonzero(neighbors >= 0)
+    second = neighbors[first, local]
+    back = (neighbors[second] == first[:, None]).argmax(axis=1)
+    if (neighbors[second, back] != first).any():
+        return "neighbors disagree"
+    once = first < second
+    first, local, second, back = first[once], local[once], second[once], back[once]
+    apex = points[simplices[second, back]]
+    across = points[simplices[first]]
+    if (in_ball(across, apex) > 0).any():
+        return "a sample is inside a Delaunay ball"
+    across = across.copy()
+    across[np.arange(len(first)), local] = apex
+    if (orientation(across) >= 0).any():
+        return "simplices overlap"
+    return _hull_problem(points, simplices, neighbors, corners)
+
+
+def _hull_problem(points, simplices, neighbors, corners):
+    """Every vertex of the hull's surface must be on or behind the planes of the facets next to it."""
+    simplex, local = np.nonzero(neighbors < 0)
+    others = np.array([[j for j in range(corners) if j != i] for i in range(corners)])
+    facets = simplices[simplex[:, None], others[local]]
+    ridges = np.concatenate([np.delete(facets, i, axis=1) for i in range(corners - 1)])
+    owner = np.tile(np.arange(len(facets)), corners - 1)
+    extra = np.concatenate([facets[:, i] for i in range(corners - 1)])
+    order = np.lexsort(np.sort(ridges, axis=1).T[::-1])
+    ridges, owner, extra = np.sort(ridges, axis=1)[order], owner[order], extra[order]
+    if len(order) % 2 or (ridges[::2] != ridges[1::2]).any():
+        return "the hull is not closed"
+    for a, b in ((0, 1), (1, 0)):
+        # Replace a facet's opposite vertex by the neighbouring facet's free one: same side, or in the plane.
+        cell = points[simplices[simplex[owner[a::2]]]]
+        cell[np.arange(len(cell)), local[owner[a::2]]] = points[extra[b::2]]
+        if (orientation(cell) < 0).any():
+            return "the hull is not convex"
+    return ""
+
+
+def _flat(points) -> bool:
+    """Whether all points are in one line (2D) or plane (3D), exactly."""
+    base = points[0]
+    far = points[np.argmax(((points - base) ** 2).sum(axis=1))]
+    if points.shape[1] == 2:
+        cells = np.broadcast_to(np.stack([base, far]), (len(points), 2, 2))
+    else:
+        off = np.argmax((np.cross(points - base, far - base) ** 2).sum(axis=1))
+        cells = np.broadcast_to(np.stack([base, far, points[off]]), (len(points), 3, 3))
+    return not orientation(np.concatenate([cells, points[:, None]], axis=1)).any()

@@ -1,0 +1,366 @@
+"""Skeletons as abstract cell complexes, and the dual complex of a set of Delaunay simplices."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import InputError
+from .topology import betti_numbers
+
+if TYPE_CHECKING:
+    import networkx
+
+    from .conforming import DelaunayShape
+    from .graphs import Tessellation
+    from .polyballs import Polyball
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """Vertices, edges and (in 3D) polygons of a skeleton, with the balls around its vertices.
+
+    The complex is abstract: two vertices can stand at one place (cocircular samples) without being
+    one. That is what keeps the homotopy of the shape (sections 3 and 3.4 of the paper).
+
+    Attributes
+    ----------
+    vertices : (k, N) float array
+        Voronoi vertices (and, in Sk3, the points where the boundary cuts Voronoi edges).
+    radii : (k,) float array
+        Distance from each vertex to its nearest samples, a length: the Delaunay balls.
+    simplices : (k,) int array
+        The Delaunay simplex whose dual each vertex is; -1 for the cut points of Sk3.
+    edges : (e, 2) int array
+        Pairs of vertices.
+    polygons : list of int arrays
+        Vertices in order around their Delaunay edge; empty in 2D.
+    rays : (r, N) float array
+        Unit directions of unbounded edges.
+    ray_vertices : (r,) int array
+        The vertex at which each ray begins.
+    tessellation : Tessellation or None
+        Where ``simplices`` points to.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> rectangle = psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (0, 1)]])
+    >>> skeleton = psl.sk0(psl.conform(rectangle))
+    >>> skeleton.betti()
+    (1, 0)
+    """
+
+    vertices: np.ndarray
+    radii: np.ndarray
+    simplices: np.ndarray
+    edges: np.ndarray
+    polygons: Sequence[np.ndarray] = field(default_factory=list)
+    rays: np.ndarray | None = None
+    ray_vertices: np.ndarray | None = None
+    tessellation: Tessellation | None = None
+
+    def __post_init__(self):
+        if self.rays is None:
+            object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
+            object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
+
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        return self.vertices.shape[1]
+
+    def segments(self) -> np.ndarray:
+        """End points of every edge, (e, 2, N).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).segments().shape
+        (1, 2, 2)
+        """
+        return self.vertices[self.edges]
+
+    def length(self) -> float:
+        """Total length of the edges (rays not counted).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2), (2, 2)]).length()
+        0.0
+        """
+        ends = self.segments()
+        return float(np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).sum())
+
+    def betti(self) -> tuple[int, ...]:
+        """Betti numbers (b0, b1) in 2D, (b0, b1, b2) in 3D, of the abstract complex.
+
+        A skeleton with rays is taken with the point at infinity, where its rays meet.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).betti()
+        (1, 2)
+        """
+        n, edges = len(self.vertices), self.edges
+        if len(self.rays):
+            edges = np.concatenate([edges, np.stack([self.ray_vertices, np.full(len(self.rays), n)], axis=1)])
+            n += 1
+            if self.dimension == 3:
+                raise InputError(
+                    "Betti numbers of unbounded 3D skeletons are not defined here; use the inner side."
+                )
+        return betti_numbers(n, edges, self.polygons if self.dimension == 3 else None)
+
+    def to_networkx(self) -> networkx.Graph:
+        """The vertices and edges as a networkx graph (needs the extra ``graph``).
+
+        Returns
+        -------
+        networkx.Graph
+            Nodes 0 to k-1 with ``pos`` (tuple), ``radius`` and ``simplex``; edges with ``length``.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> graph = psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).to_networkx()
+        >>> graph.number_of_nodes(), round(graph.edges[0, 1]["length"], 3)
+        (2, 0.559)
+        """
+        try:
+            import networkx
+        except ImportError:
+            raise InputError("networkx is not installed; run: pip install polyskel-lite[graph]") from None
+        graph = networkx.Graph()
+        rows = zip(self.vertices.tolist(), self.radii.tolist(), self.simplices.tolist(), strict=True)
+        graph.add_nodes_from(
+            (k, {"pos": tuple(p), "radius": r, "simplex": s}) for k, (p, r, s) in enumerate(rows)
+        )
+        ends = self.segments()
+        length = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).tolist()
+        graph.add_edges_from(
+            (a, b, {"length": s}) for (a, b), s in zip(self.edges.tolist(), length, strict=True)
+        )
+        return graph
+
+    def balls(self) -> Polyball:
+        """The union of the balls around the vertices: Y_w of section 3.2 when the skeleton is Sk1 or Sk2.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).balls().radii.round(3).tolist()
+        [1.414]
+        """
+        from .polyballs import Polyball
+
+        keep = self.simplices >= 0
+        return Polyball(self.vertices[keep], self.radii[keep])
+
+    def reconstruct(self) -> DelaunayShape:
+        """The union of the simplices dual to the vertices; for Sk0 the polygonal shape itself (reversibility, 3.4).
+
+        Raises
+        ------
+        InputError
+            If the skeleton was loaded or made without its tessellation.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> triangle = psl.Shape.from_rings([[(0, 0), (4, 0), (0, 3)]])
+        >>> psl.sk0(triangle).reconstruct().boundary().tolist()
+        [[0, 1], [1, 2], [2, 0]]
+        """
+        from .conforming import DelaunayShape
+
+        if self.tessellation is None:
+            raise InputError(
+                "this skeleton has no tessellation; compute it from a shape, or load one saved with it."
+            )
+        inner = np.zeros(len(self.tessellation.simplices), dtype=bool)
+        inner[self.simplices[self.simplices >= 0]] = True
+        return DelaunayShape(self.tessellation, inner)
+
+    def save(self, path: str | PathLike) -> None:
+        """Write the skeleton, with its tessellation, to a NumPy ``.npz`` file.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "skeleton.npz"
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).save(path)
+        >>> Skeleton.load(path).vertices.tolist()
+        [[1.0, 1.0]]
+        """
+        sizes = np.array([len(p) for p in self.polygons], dtype=np.int64)
+        corners = np.concatenate(self.polygons) if len(self.polygons) else np.zeros(0, dtype=np.int64)
+        data = {name: getattr(self, name) for name in _ARRAYS} | {
+            "polygon_sizes": sizes,
+            "polygon_corners": corners,
+        }
+        if self.tessellation is not None:
+            data |= {f"tessellation_{name}": getattr(self.tessellation, name) for name in _TESSELLATION}
+        with open(path, "wb") as file:
+            np.savez_compressed(file, **data)
+
+    @classmethod
+    def load(cls, path: str | PathLike) -> Skeleton:
+        """Read a skeleton written by `save`.
+
+        Raises
+        ------
+        InputError
+            If the file is not such a file.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> with tempfile.NamedTemporaryFile() as file:
+        ...     Skeleton.load(file.name)  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: ...
+        """
+        from .graphs import Tessellation
+
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                data = dict(file)
+            arrays = {name: data[name] for name in _ARRAYS}
+            polygons = np.split(data["polygon_corners"], np.cumsum(data["polygon_sizes"])[:-1])
+        except (KeyError, EOFError, zipfile.BadZipFile, ValueError, AttributeError) as error:
+            raise InputError(f"{path} is not a skeleton written by Skeleton.save ({error}).") from None
+        if not len(data["polygon_sizes"]):
+            polygons = []
+        tessellation = None
+        if "tessellation_points" in data:
+            tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
+        return cls(**arrays, polygons=polygons, tessellation=tessellation)
+
+
+_ARRAYS = ("vertices", "radii", "simplices", "edges", "rays", "ray_vertices")
+_TESSELLATION = ("points", "simplices", "neighbors")
+
+
+def dual_complex(
+    tessellation: Tessellation, keep: np.ndarray, cut: np.ndarray | None = None, rays: bool = False
+) -> Skeleton:
+    """The dual of some Delaunay simplices: a vertex each, an edge per shared facet, a polygon per inner edge.
+
+    Parameters
+    ----------
+    tessellation : Tessellation
+    keep : (t,) bool array
+        The simplices that get a vertex.
+    cut : (m,) bool array, optional
+        Rows of ``tessellation.facet_table`` that get no dual edge though both sides are kept.
+    rays : bool
+        Whether facets of the convex hull get dual rays.
+
+    Returns
+    -------
+    Skeleton
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> dual_complex(psl.delaunay([(0, 0), (2, 0), (0, 2), (2, 2)]), np.array([True, True])).edges.tolist()
+    [[0, 1]]
+    """
+    number = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
+    facets, sides = tessellation.facet_table
+    both = (number[sides] >= 0).all(axis=1)
+    open_side = (sides[:, 1] < 0) & (number[sides[:, 0]] >= 0)
+    if cut is not None:
+        both &= ~cut
+        open_side &= ~cut
+    simplices = np.flatnonzero(keep)
+    polygons: list[np.ndarray] = []
+    if tessellation.dimension == 3:
+        polygons = _dual_polygons(tessellation, number, cut)
+    directions, origins = np.zeros((0, tessellation.dimension)), np.zeros(0, dtype=np.int64)
+    if rays:
+        directions = outward_normals(tessellation, np.flatnonzero(open_side))
+        origins = number[sides[open_side, 0]]
+    return Skeleton(
+        vertices=tessellation.circumcenters[simplices],
+        radii=tessellation.circumradii[simplices],
+        simplices=simplices,
+        edges=number[sides[both]],
+        polygons=polygons,
+        rays=directions,
+        ray_vertices=origins,
+        tessellation=tessellation,
+    )
+
+
+def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:
+    """Unit normals of facets, pointing away from the first simplex of their row in ``facet_table``, (k, N).
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> triangle = psl.delaunay([(0, 0), (1, 0), (0, 1)])
+    >>> outward_normals(triangle, np.array([1, 2])).tolist()
+    [[-1.0, 0.0], [0.0, -1.0]]
+    """
+    corners = tessellation.points[tessellation.facets()[rows]]
+    apex = tessellation.points[tessellation.apexes()[rows, 0]]
+    d = corners[:, 1:] - corners[:, :1]
+    if tessellation.dimension == 2:
+        normal = np.stack([-d[:, 0, 1], d[:, 0, 0]], axis=1)
+    else:
+        normal = np.cross(d[:, 0], d[:, 1])
+    inward = (normal * (apex - corners[:, 0])).sum(axis=1) > 0
+    normal[inward] *= -1
+    # Adding zero turns -0.0 into 0.0, which reads better.
+    return normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)) + 0.0
+
+
+def _dual_polygons(tessellation, number, cut) -> list[np.ndarray]:
+    """The cycles of kept tetrahedra around Delaunay edges, by rotation about each edge."""
+    simplices, neighbors = tessellation.simplices, tessellation.neighbors
+    crossing = np.zeros(neighbors.shape, dtype=bool) if cut is None else _local(tessellation, cut)
+    done, polygons = set(), []
+    for first in np.flatnonzero(number[:-1] >= 0).tolist():
+        for i in range(4):
+            for j in range(i):
+                edge = tuple(sorted((int(simplices[first, i]), int(simplices[first, j]))))
+                if edge in done:
+                    continue
+                # Leave through the facet opposite one of the two other vertices, enter the next tetrahedron.
+                leave = next(k for k in range(4) if k not in (i, j))
+                cycle, current = [], first
+                while True:
+                    cycle.append(current)
+                    following = int(neighbors[current, leave])
+                    if following < 0 or number[following] < 0 or crossing[current, leave]:
+                        break
+                    came = int(np.flatnonzero(neighbors[following] == current)[0])
+                    corners = simplices[following].tolist()
+                    leave = next(k for k in range(4) if k != came and corners[k] not in edge)
+                    current = following
+                    if current == first:
+                        done.add(edge)
+                        polygons.append(number[np.array(cycle)])
+                        break
+    return polygons
+
+
+def _local(tessellation, cut):
+    """Rows of ``facet_table`` as a mask over (simplex, opposite vertex)."""
+    sides = tessellation.facet_table[1][cut]
+    apexes = tessellation.apexes()[cut]
+    mask = np.zeros(tessellation.neighbors.shape, dtype=bool)
+    for side in range(2):
+        there = sides[:, side] >= 0
+        s = sides[there, side]
+        mask[s, (tessellation.simplices[s] == apexes[there, side][:, None]).argmax(axis=1)] = True
+    return mask

@@ -1,0 +1,472 @@
+"""Shapes by their boundary, and samplings of it (the paper's section 2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from os import PathLike
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .errors import DuplicatePointError, InputError, ShapeError
+from .predicates import as_points, orientation
+from .segments import distance_to_segments, first_meeting, locate
+
+
+def check_distinct(points: np.ndarray, name: str = "points") -> None:
+    """Raise `DuplicatePointError` naming the first two equal rows.
+
+    Examples
+    --------
+    >>> check_distinct(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    """
+    if not len(points):
+        return
+    order = np.lexsort(points.T[::-1])
+    same = (points[order[1:]] == points[order[:-1]]).all(axis=1)
+    if same.any():
+        # lexsort is stable, so the first index of an equal pair is the smaller one.
+        pairs = np.sort(np.stack([order[:-1][same], order[1:][same]], axis=1), axis=1)
+        i, j = pairs[np.lexsort(pairs.T[::-1])[0]]
+        where = ", ".join(f"{x:g}" for x in points[i])
+        raise DuplicatePointError(f"{name} {i} and {j} are both at ({where}); keep one of them.")
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A closed region of the plane given by oriented boundary segments (the polygonal P of section 2.1).
+
+    Parameters
+    ----------
+    points : (n, 2) array-like
+        Boundary vertices, any unit of length, all different.
+    facets : (n, 2) array-like of int
+        Segments from vertex to vertex with the interior on the left: outer rings run
+        counter-clockwise, holes clockwise. Every vertex begins one segment and ends one.
+
+    Attributes
+    ----------
+    points : (n, 2) float array
+    facets : (n, 2) int array
+    dimension : int
+        N = 2.
+
+    Raises
+    ------
+    InputError
+        If an array has a wrong shape, or a number that is not finite.
+    DuplicatePointError
+        If two vertices coincide.
+    ShapeError
+        If the boundary is open, crosses or touches itself, or has its interior on the wrong side.
+
+    See Also
+    --------
+    Shape.from_rings : the same from lists of vertices in any orientation.
+
+    References
+    ----------
+    Attali and Montanvert, Computing and simplifying 2D and 3D continuous skeletons, 1997, section 2.1.
+
+    Examples
+    --------
+    >>> triangle = Shape([(0, 0), (4, 0), (0, 3)], [(0, 1), (1, 2), (2, 0)])
+    >>> triangle.area(), triangle.length(), triangle.betti()
+    (6.0, 12.0, (1, 0))
+    """
+
+    points: np.ndarray
+    facets: np.ndarray
+
+    def __post_init__(self):
+        points = as_points(self.points, dimensions=(2, 3))
+        if points.shape[1] == 3:
+            raise InputError(
+                "points are in 3D; this version's Shape is planar, triangle meshes are not read yet."
+            )
+        facets = _as_facets(self.facets, len(points))
+        _check_closed(len(points), facets)
+        check_distinct(points)
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "facets", facets)
+        meeting = first_meeting(points, facets)
+        if meeting:
+            i, j = meeting
+            (a, b), (c, d) = facets[i], facets[j]
+            raise ShapeError(
+                f"segment {i} (vertices {a}-{b}) meets segment {j} (vertices {c}-{d}) near "
+                f"{_near(points[facets[i]])}; a boundary may not cross or touch itself: move a vertex."
+            )
+        self._check_orientation()
+        points.setflags(write=False)
+        facets.setflags(write=False)
+
+    @classmethod
+    def from_rings(cls, rings: Sequence) -> Shape:
+        """Make a shape from closed rings of any orientation; rings inside rings are holes (even-odd).
+
+        Parameters
+        ----------
+        rings : list of (k, 2) array-like
+            Vertices in order. The last one may repeat the first.
+
+        Returns
+        -------
+        Shape
+            Outer rings turned counter-clockwise, holes clockwise; the order of the rings is kept.
+
+        Raises
+        ------
+        InputError, DuplicatePointError, ShapeError
+            As `Shape`; a ring with fewer than three vertices is named by its index.
+
+        Examples
+        --------
+        >>> square = np.array([(0, 0), (3, 0), (3, 3), (0, 3)])
+        >>> frame = Shape.from_rings([square, square / 3 + 1])
+        >>> frame.betti(), round(frame.area(), 12)
+        ((1, 1), 8.0)
+        """
+        if not len(rings):
+            raise InputError("rings is empty; pass at least one ring of three vertices.")
+        cleaned = []
+        for k, ring in enumerate(rings):
+            ring = as_points(ring, name=f"ring {k}", dimensions=(2,))
+            if len(ring) > 1 and (ring[0] == ring[-1]).all():
+                ring = ring[:-1]
+            if len(ring) < 3:
+                raise InputError(f"ring {k} has {len(ring)} different vertices; a ring needs at least three.")
+            cleaned.append(ring)
+        depth, turn = _nesting(cleaned)
+        rings = [
+            ring if (turn[k] > 0) == (depth[k] % 2 == 0) else np.roll(ring[::-1], 1, axis=0)
+            for k, ring in enumerate(cleaned)
+        ]
+        return cls(np.concatenate(rings), _ring_facets([len(r) for r in rings]))
+
+    @classmethod
+    def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
+        """Make a shape from a picture by marching squares; see `polyskel_lite.readers.from_mask`.
+
+        Examples
+        --------
+        >>> Shape.from_mask(np.ones((4, 4))).betti()
+        (1, 0)
+        """
+        from .readers import from_mask
+
+        return from_mask(image, level, **options)
+
+    @classmethod
+    def from_file(cls, path: str | PathLike, **options) -> Shape:
+        """Read a shape from GeoJSON, SVG or PNG; see `polyskel_lite.readers.from_file`.
+
+        Examples
+        --------
+        >>> Shape.from_file("outline.xyz")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: ...
+        """
+        from .readers import from_file
+
+        return from_file(path, **options)
+
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        return self.points.shape[1]
+
+    @property
+    def segments(self) -> np.ndarray:
+        """The end points of every facet, (m, 2, 2)."""
+        return self.points[self.facets]
+
+    def rings(self) -> list[np.ndarray]:
+        """The vertex indices of every closed curve in order, starting at its smallest index.
+
+        Examples
+        --------
+        >>> Shape([(0, 0), (1, 0), (0, 1)], [(1, 2), (0, 1), (2, 0)]).rings()
+        [array([0, 1, 2])]
+        """
+        return _rings(self.facets)
+
+    def contains(self, queries) -> np.ndarray:
+        """Whether each query point is in the closed region; exact, boundary points are inside.
+
+        Parameters
+        ----------
+        queries : (k, 2) array-like
+
+        Returns
+        -------
+        (k,) bool array
+
+        Examples
+        --------
+        >>> square = Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+        >>> square.contains([(1, 1), (2, 1), (3, 1)])
+        array([ True,  True, False])
+        """
+        return self.locate(queries) >= 0
+
+    def locate(self, queries) -> np.ndarray:
+        """+1 for queries in the interior, 0 on the boundary, -1 outside; exact.
+
+        Examples
+        --------
+        >>> square = Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+        >>> square.locate([(1, 1), (2, 1), (3, 1)])
+        array([ 1,  0, -1], dtype=int8)
+        """
+        return locate(self.segments, as_points(queries, name="queries", dimensions=(2,)))
+
+    def boundary_distance(self, queries) -> np.ndarray:
+        """Distance (a length, never negative) from each query to the boundary.
+
+        Examples
+        --------
+        >>> square = Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+        >>> square.boundary_distance([(1, 1), (5, 6)])
+        array([1., 5.])
+        """
+        return distance_to_segments(self.segments, as_points(queries, name="queries", dimensions=(2,)))
+
+    def sample(self, n: int, start: float = 0.0) -> np.ndarray:
+        """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling).
+
+        Parameters
+        ----------
+        n : int
+            Number of points in all, at least three a ring; shared among rings by length.
+        start : float
+            Where the first point stands, as a share of one step; 0 puts it on the ring's first vertex.
+
+        Returns
+        -------
+        (n, 2) float array
+
+        Raises
+        ------
+        InputError
+            If ``n`` is less than three times the number of rings.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).sample(4, start=0.5).tolist()
+        [[1.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0]]
+        """
+        return np.concatenate(self._sample_rings(n, start))
+
+    def resample(self, n: int, start: float = 0.0) -> Shape:
+        """The polygon P_w through `sample` (n, start).
+
+        Raises
+        ------
+        ShapeError
+            If so few samples make a polygon that crosses itself; ask for more.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).resample(8).area()
+        4.0
+        """
+        rings = self._sample_rings(n, start)
+        try:
+            return Shape(np.concatenate(rings), _ring_facets([len(r) for r in rings]))
+        except ShapeError as error:
+            raise ShapeError(f"{n} samples are too few for this shape: {error}") from None
+
+    def _sample_rings(self, n: int, start: float) -> list[np.ndarray]:
+        closed = [self.points[np.append(ring, ring[0])] for ring in self.rings()]
+        along = [np.concatenate([[0], np.cumsum(np.hypot(*np.diff(c, axis=0).T))]) for c in closed]
+        if n < 3 * len(closed):
+            raise InputError(f"n = {n} samples for {len(closed)} rings; every ring needs at least three.")
+        lengths = np.array([s[-1] for s in along])
+        # Largest remainders: the shares are fair and sum to n.
+        ideal = n * lengths / lengths.sum()
+        share = np.maximum(3, np.floor(ideal)).astype(int)
+        while share.sum() != n:
+            step = 1 if share.sum() < n else -1
+            gain = np.where((step < 0) & (share <= 3), -np.inf, step * (ideal - share))
+            share[np.argmax(gain)] += step
+        out = []
+        for c, s, k in zip(closed, along, share, strict=True):
+            at = (np.arange(k) + start) * s[-1] / k % s[-1]
+            out.append(np.stack([np.interp(at, s, c[:, 0]), np.interp(at, s, c[:, 1])], axis=1))
+        return out
+
+    def covering_radius(self, E=None) -> float:
+        """w⁻¹, the largest distance from a boundary point to the samples (section 2.1); a length.
+
+        Parameters
+        ----------
+        E : (n, 2) array-like, optional
+            The samples; by default the vertices of the shape.
+
+        Returns
+        -------
+        float
+            Right to about 1e-9 of itself: segments are halved as long as they could hold the maximum.
+
+        Examples
+        --------
+        >>> square = Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+        >>> round(square.covering_radius(), 6)
+        1.0
+        """
+        tree = cKDTree(self.points if E is None else as_points(E, name="E", dimensions=(2,)))
+        a, b = self.segments[:, 0], self.segments[:, 1]
+        best = float(max(tree.query(self.points)[0].max(), 0.0))
+        while len(a):
+            middle, half = (a + b) / 2, np.hypot(*(b - a).T) / 2
+            distance = tree.query(middle)[0]
+            best = max(best, float(distance.max()))
+            # The distance to E changes by at most the way walked, so other segments cannot beat `best`.
+            keep = distance + half > best * (1 + 1e-9) + 1e-300
+            a, b, middle = a[keep], b[keep], middle[keep]
+            a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
+        return best
+
+    def sampling_density(self, E=None) -> float:
+        """The paper's w (section 2.1): one over the largest distance from the boundary to the samples.
+
+        Parameters
+        ----------
+        E : (n, 2) array-like, optional
+            The samples; by default the vertices of the shape.
+
+        Returns
+        -------
+        float
+            One over a length; infinite if E covers the boundary, which no finite set does.
+
+        See Also
+        --------
+        covering_radius : w⁻¹ itself.
+
+        Examples
+        --------
+        >>> square = Shape.from_rings([[(0, 0), (4, 0), (4, 4), (0, 4)]])
+        >>> round(square.sampling_density(), 6)
+        0.5
+        """
+        return 1 / self.covering_radius(E)
+
+    def area(self) -> float:
+        """Area of the region.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).area()
+        4.0
+        """
+        a, b = (self.segments - self.points.mean(axis=0)).transpose(1, 0, 2)
+        return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2)
+
+    def length(self) -> float:
+        """Length of the boundary, holes included.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).length()
+        8.0
+        """
+        return float(np.hypot(*(self.segments[:, 1] - self.segments[:, 0]).T).sum())
+
+    def betti(self) -> tuple[int, int]:
+        """Betti numbers of the region: components (outer rings) and holes (inner rings).
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).betti()
+        (1, 0)
+        """
+        turns = [_turn(self.points[ring]) for ring in self.rings()]
+        return turns.count(1), turns.count(-1)
+
+    def _check_orientation(self) -> None:
+        rings = self.rings()
+        depth, turn = _nesting([self.points[ring] for ring in rings])
+        for k, ring in enumerate(rings):
+            if (turn[k] > 0) != (depth[k] % 2 == 0):
+                kind = (
+                    "an outer ring runs clockwise" if depth[k] % 2 == 0 else "a hole runs counter-clockwise"
+                )
+                raise ShapeError(
+                    f"{kind}: the ring through vertex {ring[0]} at {_near(self.points[ring[:1]])} has its "
+                    "interior on the right; reverse its segments, or use Shape.from_rings."
+                )
+
+
+def _near(points: np.ndarray) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in points.mean(axis=0)) + ")"
+
+
+def _as_facets(facets, n: int) -> np.ndarray:
+    array = np.array(facets)
+    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+        raise InputError(
+            f"facets has shape {array.shape} and type {array.dtype}; pass an (m, 2) array of int."
+        )
+    bad = np.argwhere((array < 0) | (array >= n))
+    if len(bad):
+        row, column = bad[0]
+        raise InputError(f"facets[{row}, {column}] is {array[row, column]}, but vertices are 0 to {n - 1}.")
+    return array.astype(np.int64)
+
+
+def _check_closed(n: int, facets: np.ndarray) -> None:
+    begins, ends = np.bincount(facets[:, 0], minlength=n), np.bincount(facets[:, 1], minlength=n)
+    bad = np.flatnonzero((begins != 1) | (ends != 1))
+    if len(bad):
+        v = bad[0]
+        raise ShapeError(
+            f"vertex {v} begins {begins[v]} segments and ends {ends[v]}; on a closed boundary without "
+            "touching points it does each once: close the gap, split the vertex or drop it."
+        )
+    loop = np.flatnonzero(facets[:, 0] == facets[:, 1])
+    if len(loop):
+        raise ShapeError(f"segment {loop[0]} joins vertex {facets[loop[0], 0]} to itself; remove both.")
+
+
+def _ring_facets(sizes: Sequence[int]) -> np.ndarray:
+    first = np.concatenate([[0], np.cumsum(sizes)])
+    return np.concatenate(
+        [np.stack([np.arange(a, b), np.append(np.arange(a + 1, b), a)], axis=1) for a, b in pairwise(first)]
+    )
+
+
+def _rings(facets: np.ndarray) -> list[np.ndarray]:
+    after = np.empty(len(facets), dtype=np.int64)
+    after[facets[:, 0]] = facets[:, 1]
+    follow, seen, rings = after.tolist(), np.zeros(len(facets), dtype=bool), []
+    for start in range(len(facets)):
+        if seen[start]:
+            continue
+        ring = [start]
+        while (vertex := follow[ring[-1]]) != start:
+            ring.append(vertex)
+        seen[ring] = True
+        rings.append(np.array(ring))
+    return rings
+
+
+def _turn(ring: np.ndarray) -> int:
+    """+1 for a counter-clockwise simple ring, -1 clockwise, 0 if flat at its lowest vertex; exact."""
+    k = int(np.lexsort((ring[:, 0], ring[:, 1]))[0])
+    return int(orientation(ring[[[k - 1, k, (k + 1) % len(ring)]]])[0])
+
+
+def _nesting(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """How many other rings surround each ring, and how each one turns."""
+    turn = np.array([_turn(ring) for ring in rings])
+    first = np.array([ring[0] for ring in rings])
+    depth = np.zeros(len(rings), dtype=int)
+    for k, ring in enumerate(rings):
+        inside = locate(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1), first) > 0
+        inside[k] = False
+        depth += inside
+    return depth, turn
