@@ -1,0 +1,50 @@
+"""Sphinx's settings. The book's own choices stand in ../book.toml; what is here makes its pages work offline."""
+
+import json
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BOOK = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))
+
+project = BOOK["book"]["title"]
+author = ", ".join(BOOK["book"]["authors"])
+copyright = BOOK["book"]["copyright"]  # Sphinx asks for this name
+
+extensions = [
+    "myst_nb",
+    "sphinx_external_toc",
+    "sphinx_design",
+    "sphinx_copybutton",
+    "sphinx_togglebutton",
+    "sphinxcontrib.bibtex",
+    "sphinx_proof",
+    "sphinx_exercise",
+    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",
+]
+
+# sphinx-external-toc reads YAML, and JSON is YAML.
+external_toc_path = str(ROOT / "_build" / "toc.json")
+Path(external_toc_path).parent.mkdir(exist_ok=True)
+Path(external_toc_path).write_text(json.dumps(BOOK["toc"]), encoding="utf-8")
+
+nb_execution_mode = "off"  # the pages are the notebooks as committed; `make test` runs them and compares
+bibtex_bibfiles = ["references.bib"]
+numfig = True
+exclude_patterns = ["_build", "**.ipynb_checkpoints"]
+html_theme = "sphinx_book_theme"
+html_title = project
+html_static_path = ["_static"]
+html_css_files = ["book.css"]
+html_copy_source = False
+html_theme_options = {"navbar_persistent": [], "show_toc_level": 2, "use_download_button": False}
+if "repository" in BOOK["book"]:
+    html_theme_options |= {
+        "repository_url": BOOK["book"]["repository"],
+        "repository_branch": BOOK["book"].get("branch", "main"),
+        "path_to_docs": "notebooks",
+        "use_repository_button": True,
+    }
+
+globals().update(BOOK.get("sphinx", {}).get("config", {}))

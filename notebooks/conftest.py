@@ -1,0 +1,16 @@
+"""How pytest --nbval runs the chapters.
+
+nbval executes cells without history, and IPython looks up the ``;`` that ends a plot cell in the history:
+without this file every such cell would gain a line ``<Axes: >``. Jupyter keeps history, so nbval does here.
+"""
+
+from nbval.kernel import RunningKernel
+
+
+def execute_with_history(kernel, cell_input, allow_stdin=None):
+    """Do what ``RunningKernel.execute_cell_input`` does, with history as in Jupyter."""
+    return kernel.kc.execute(cell_input, store_history=True, allow_stdin=allow_stdin, stop_on_error=False)
+
+
+def pytest_configure(config):
+    RunningKernel.execute_cell_input = execute_with_history
