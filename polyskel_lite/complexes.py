@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import InputError
+from .predicates import orientation
 from .topology import betti_numbers
 
 if TYPE_CHECKING:
@@ -318,7 +319,8 @@ def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:
         normal = np.stack([-d[:, 0, 1], d[:, 0, 0]], axis=1)
     else:
         normal = np.cross(d[:, 0], d[:, 1])
-    inward = (normal * (apex - corners[:, 0])).sum(axis=1) > 0
+    # Exactly, because the apex of a nearly flat simplex is too near to its facet for rounded signs.
+    inward = orientation(np.concatenate([corners, apex[:, None]], axis=1)) > 0
     normal[inward] *= -1
     # Adding zero turns -0.0 into 0.0, which reads better.
     return normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)) + 0.0
