@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import ConvexHull, Delaunay, QhullError
+from scipy.spatial import Delaunay, QhullError
 
 from ._incremental import incremental_delaunay
 from .errors import TessellationError
@@ -50,25 +50,12 @@ def _candidates(points):
     scale = np.abs(centred).max()
     centred = centred / scale if scale > 0 else centred
     yield lambda: _orient(points, *_qhull(centred))
-    if points.shape[1] == 2:
-        yield lambda: incremental_delaunay(points)
-        return
-    # Heights of the lifted points moved by next to nothing: cospherical sets get a regular
-    # tessellation of their own, whose simplices are not flat. The check decides if it was too much.
-    for tiny in (1e-12, 1e-10, 1e-8):
-        yield lambda tiny=tiny: _orient(points, *_lifted(centred, tiny))
+    yield lambda: incremental_delaunay(points)
 
 
 def _qhull(points):
     tessellation = Delaunay(points)
     return tessellation.simplices.astype(np.int64), tessellation.neighbors.astype(np.int64)
-
-
-def _lifted(points, tiny):
-    noise = np.random.default_rng(0).random(len(points)) * tiny
-    hull = ConvexHull(np.column_stack([points, (points**2).sum(axis=1) + noise]))
-    lower = hull.equations[:, -2] < 0
-    return _keep(hull.simplices.astype(np.int64), hull.neighbors.astype(np.int64), lower)
 
 
 def _keep(simplices, neighbors, keep):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from ._triangulate import triangulate
 from .complexes import Skeleton, dual_complex
-from .predicates import as_points, in_gabriel_ball
+from .predicates import as_integers, as_points, in_gabriel_ball
 from .shapes import check_distinct
 
 
@@ -132,19 +133,42 @@ def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     simplices = np.asarray(simplices, dtype=np.float64)
     base, d = simplices[:, 0], simplices[:, 1:] - simplices[:, :1]
-    lift = (d**2).sum(axis=2)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        if simplices.shape[2] == 2:
-            (ax, ay), (bx, by) = d[:, 0].T, d[:, 1].T
-            twice = 2 * (ax * by - ay * bx)
-            offset = np.stack([by * lift[:, 0] - ay * lift[:, 1], ax * lift[:, 1] - bx * lift[:, 0]], axis=1)
-        else:
-            a, b, c = d[:, 0], d[:, 1], d[:, 2]
-            bc, ca, ab = np.cross(b, c), np.cross(c, a), np.cross(a, b)
-            twice = 2 * (a * bc).sum(axis=1)
-            offset = lift[:, :1] * bc + lift[:, 1:2] * ca + lift[:, 2:] * ab
-        offset = np.where(twice[:, None] != 0, offset / twice[:, None], np.inf)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
+        twice, numerator = _circumcenter_terms(d)
+        size = np.sqrt((d**2).sum(axis=2)).prod(axis=1)
+        offset = np.where(twice[:, None] != 0, numerator / twice[:, None], np.inf)
+        # Thin simplices: rounding would move, or lose, their centre. Integers do not round.
+        for k in np.flatnonzero(~(np.abs(twice) > 1e-6 * size)):
+            offset[k] = _exact_offset(simplices[k])
         return base + offset, np.sqrt((offset**2).sum(axis=1))
+
+
+def _circumcenter_terms(d):
+    """Twice the determinant of the sides d (t, N, N), and that times the way to the circumcenter."""
+    lift = (d * d).sum(axis=2)
+    if d.shape[2] == 2:
+        (ax, ay), (bx, by) = d[:, 0].T, d[:, 1].T
+        numerator = [by * lift[:, 0] - ay * lift[:, 1], ax * lift[:, 1] - bx * lift[:, 0]]
+        return 2 * (ax * by - ay * bx), np.stack(numerator, axis=1)
+    a, b, c = d[:, 0], d[:, 1], d[:, 2]
+    bc, ca, ab = _cross(b, c), _cross(c, a), _cross(a, b)
+    return 2 * (a * bc).sum(axis=1), lift[:, :1] * bc + lift[:, 1:2] * ca + lift[:, 2:] * ab
+
+
+def _cross(u, v):
+    # numpy.cross does not take Python's unbounded integers.
+    (ux, uy, uz), (vx, vy, vz) = u.T, v.T
+    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
+
+
+def _exact_offset(simplex):
+    # The second array tells what a length of one is in the common unit of the integers.
+    corners, unit = as_integers(simplex, np.ones(1))
+    twice, numerator = _circumcenter_terms((corners[1:] - corners[:1])[None])
+    try:
+        return [float(Fraction(x, twice[0] * unit[0])) for x in numerator[0]]
+    except (ZeroDivisionError, OverflowError):
+        return np.full(simplex.shape[1], np.inf)
 
 
 def delaunay(points) -> Tessellation:
