@@ -2,7 +2,8 @@
 
 from . import datasets
 from .complexes import Skeleton
-from .conforming import DelaunayShape, conform, delaunay_shape, missing_facets
+from .conforming import conform, missing_facets
+from .delaunay_shapes import DelaunayShape, delaunay_shape
 from .distances import directed_hausdorff, hausdorff
 from .errors import (
     ContourContainmentError,

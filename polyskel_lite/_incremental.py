@@ -217,7 +217,7 @@ def _in_ball(*points):
 
 
 def _local_order(points: np.ndarray) -> list[int]:
-    """Insertion order: rounds of twice as many samples each, shuffled in, and neighbours in turn within a round.
+    """Insertion order: random rounds, each twice the last, and neighbours in turn within a round.
 
     Amenta, Choi and Rote, Incremental constructions con BRIO, 2003.
     """

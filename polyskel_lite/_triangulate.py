@@ -76,7 +76,7 @@ def _orient(points, simplices, neighbors):
 
 
 def _canonical(points, simplices, neighbors):
-    """The same tessellation in one order: rows and vertices increasing, but for the last two of odd simplices."""
+    """The same in one order: rows and vertices increasing, but for the last two of odd simplices."""
     inside = np.argsort(simplices, axis=1)
     simplices, neighbors = (np.take_along_axis(array, inside, axis=1) for array in (simplices, neighbors))
     odd = np.flatnonzero(orientation(points[simplices]) < 0)

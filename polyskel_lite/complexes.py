@@ -17,7 +17,7 @@ from .topology import betti_numbers
 if TYPE_CHECKING:
     import networkx
 
-    from .conforming import DelaunayShape
+    from .delaunay_shapes import DelaunayShape
     from .graphs import Tessellation
     from .polyballs import Polyball
 
@@ -166,7 +166,7 @@ class Skeleton:
         return Polyball(self.vertices[keep], self.radii[keep])
 
     def reconstruct(self) -> DelaunayShape:
-        """The union of the simplices dual to the vertices; for Sk0 the polygonal shape itself (reversibility, 3.4).
+        """The union of the simplices dual to the vertices: for Sk0 the shape itself (reversibility, 3.4).
 
         Raises
         ------
@@ -180,7 +180,7 @@ class Skeleton:
         >>> psl.sk0(triangle).reconstruct().boundary().tolist()
         [[0, 1], [1, 2], [2, 0]]
         """
-        from .conforming import DelaunayShape
+        from .delaunay_shapes import DelaunayShape
 
         if self.tessellation is None:
             raise InputError(
@@ -276,7 +276,7 @@ def dual_complex(
     [[0, 1]]
     """
     number = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
-    facets, sides = tessellation.facet_table
+    sides = tessellation.facet_table[1]
     both = (number[sides] >= 0).all(axis=1)
     open_side = (sides[:, 1] < 0) & (number[sides[:, 0]] >= 0)
     if cut is not None:

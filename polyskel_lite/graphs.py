@@ -63,7 +63,7 @@ class Tessellation:
 
     @cached_property
     def facet_table(self) -> tuple[np.ndarray, np.ndarray]:
-        """Every facet once: its vertices in increasing order (m, N) and its two simplices (m, 2), -1 for none.
+        """Every facet once: its vertices (m, N), increasing, and its two simplices (m, 2), -1 for none.
 
         Examples
         --------
@@ -212,6 +212,30 @@ def delaunay(points) -> Tessellation:
     check_distinct(points)
     points.setflags(write=False)
     return Tessellation(points, *triangulate(points))
+
+
+def facet_rows(tessellation: Tessellation, facets: np.ndarray) -> np.ndarray:
+    """The row of ``tessellation.facet_table`` of each facet, in any vertex order; -1 if it is not Delaunay.
+
+    Examples
+    --------
+    >>> facet_rows(delaunay([(0, 0), (4, 0), (4, 1), (0, 1), (2, 3)]), np.array([[1, 0], [0, 4]])).tolist()[1]
+    -1
+    """
+    n = len(tessellation.points)
+
+    def keys(rows):
+        rows = np.sort(np.asarray(rows, dtype=np.int64), axis=1)
+        # n**3 fits in 63 bits for two million points.
+        return (rows * n ** np.arange(rows.shape[1])[::-1]).sum(axis=1)
+
+    table = keys(tessellation.facets())
+    order = np.argsort(table)
+    wanted = keys(facets)
+    at = np.searchsorted(table[order], wanted)
+    at[at == len(table)] = 0
+    row = order[at]
+    return np.where(table[row] == wanted, row, -1)
 
 
 def as_tessellation(points_or_tessellation) -> Tessellation:

@@ -79,8 +79,8 @@ def reconstruct_curve(points) -> Shape:
         _refuse(
             points,
             int(tessellation.simplices[smallest, 0]),
-            f"is on a Delaunay disk of radius {tessellation.circumradii[smallest]:.4g}, not above half of the "
-            f"longest boundary edge ({needed / 2:.4g})",
+            f"is on a Delaunay disk of radius {tessellation.circumradii[smallest]:.4g}, not above half "
+            f"of the longest boundary edge ({needed / 2:.4g})",
         )
     # from_rings turns the curves; going back to the given indices keeps E and the vertices the same.
     oriented = Shape.from_rings([points[cycle] for cycle in _cycles(chosen, len(points))])

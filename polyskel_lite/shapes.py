@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from os import PathLike
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ._rings import as_facets, check_closed, near, nesting, ring_facets, rings_of, turn_of
 from .errors import DuplicatePointError, InputError, ShapeError
-from .predicates import as_points, orientation
+from .predicates import as_points
 from .segments import distance_to_segments, first_meeting, locate
 
 
@@ -86,8 +86,8 @@ class Shape:
             raise InputError(
                 "points are in 3D; this version's Shape is planar, triangle meshes are not read yet."
             )
-        facets = _as_facets(self.facets, len(points))
-        _check_closed(len(points), facets)
+        facets = as_facets(self.facets, len(points))
+        check_closed(len(points), facets)
         check_distinct(points)
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "facets", facets)
@@ -97,7 +97,7 @@ class Shape:
             (a, b), (c, d) = facets[i], facets[j]
             raise ShapeError(
                 f"segment {i} (vertices {a}-{b}) meets segment {j} (vertices {c}-{d}) near "
-                f"{_near(points[facets[i]])}; a boundary may not cross or touch itself: move a vertex."
+                f"{near(points[facets[i]])}; a boundary may not cross or touch itself: move a vertex."
             )
         self._check_orientation()
         points.setflags(write=False)
@@ -139,12 +139,12 @@ class Shape:
             if len(ring) < 3:
                 raise InputError(f"ring {k} has {len(ring)} different vertices; a ring needs at least three.")
             cleaned.append(ring)
-        depth, turn = _nesting(cleaned)
+        depth, turn = nesting(cleaned)
         rings = [
             ring if (turn[k] > 0) == (depth[k] % 2 == 0) else np.roll(ring[::-1], 1, axis=0)
             for k, ring in enumerate(cleaned)
         ]
-        return cls(np.concatenate(rings), _ring_facets([len(r) for r in rings]))
+        return cls(np.concatenate(rings), ring_facets([len(r) for r in rings]))
 
     @classmethod
     def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
@@ -191,7 +191,7 @@ class Shape:
         >>> Shape([(0, 0), (1, 0), (0, 1)], [(1, 2), (0, 1), (2, 0)]).rings()
         [array([0, 1, 2])]
         """
-        return _rings(self.facets)
+        return rings_of(self.facets)
 
     def contains(self, queries) -> np.ndarray:
         """Whether each query point is in the closed region; exact, boundary points are inside.
@@ -275,7 +275,7 @@ class Shape:
         """
         rings = self._sample_rings(n, start)
         try:
-            return Shape(np.concatenate(rings), _ring_facets([len(r) for r in rings]))
+            return Shape(np.concatenate(rings), ring_facets([len(r) for r in rings]))
         except ShapeError as error:
             raise ShapeError(f"{n} samples are too few for this shape: {error}") from None
 
@@ -384,89 +384,18 @@ class Shape:
         >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).betti()
         (1, 0)
         """
-        turns = [_turn(self.points[ring]) for ring in self.rings()]
+        turns = [turn_of(self.points[ring]) for ring in self.rings()]
         return turns.count(1), turns.count(-1)
 
     def _check_orientation(self) -> None:
         rings = self.rings()
-        depth, turn = _nesting([self.points[ring] for ring in rings])
+        depth, turn = nesting([self.points[ring] for ring in rings])
         for k, ring in enumerate(rings):
             if (turn[k] > 0) != (depth[k] % 2 == 0):
                 kind = (
                     "an outer ring runs clockwise" if depth[k] % 2 == 0 else "a hole runs counter-clockwise"
                 )
                 raise ShapeError(
-                    f"{kind}: the ring through vertex {ring[0]} at {_near(self.points[ring[:1]])} has its "
+                    f"{kind}: the ring through vertex {ring[0]} at {near(self.points[ring[:1]])} has its "
                     "interior on the right; reverse its segments, or use Shape.from_rings."
                 )
-
-
-def _near(points: np.ndarray) -> str:
-    return "(" + ", ".join(f"{x:g}" for x in points.mean(axis=0)) + ")"
-
-
-def _as_facets(facets, n: int) -> np.ndarray:
-    array = np.array(facets)
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise InputError(
-            f"facets has shape {array.shape} and type {array.dtype}; pass an (m, 2) array of int."
-        )
-    bad = np.argwhere((array < 0) | (array >= n))
-    if len(bad):
-        row, column = bad[0]
-        raise InputError(f"facets[{row}, {column}] is {array[row, column]}, but vertices are 0 to {n - 1}.")
-    return array.astype(np.int64)
-
-
-def _check_closed(n: int, facets: np.ndarray) -> None:
-    begins, ends = np.bincount(facets[:, 0], minlength=n), np.bincount(facets[:, 1], minlength=n)
-    bad = np.flatnonzero((begins != 1) | (ends != 1))
-    if len(bad):
-        v = bad[0]
-        raise ShapeError(
-            f"vertex {v} begins {begins[v]} segments and ends {ends[v]}; on a closed boundary without "
-            "touching points it does each once: close the gap, split the vertex or drop it."
-        )
-    loop = np.flatnonzero(facets[:, 0] == facets[:, 1])
-    if len(loop):
-        raise ShapeError(f"segment {loop[0]} joins vertex {facets[loop[0], 0]} to itself; remove both.")
-
-
-def _ring_facets(sizes: Sequence[int]) -> np.ndarray:
-    first = np.concatenate([[0], np.cumsum(sizes)])
-    return np.concatenate(
-        [np.stack([np.arange(a, b), np.append(np.arange(a + 1, b), a)], axis=1) for a, b in pairwise(first)]
-    )
-
-
-def _rings(facets: np.ndarray) -> list[np.ndarray]:
-    after = np.empty(len(facets), dtype=np.int64)
-    after[facets[:, 0]] = facets[:, 1]
-    follow, seen, rings = after.tolist(), np.zeros(len(facets), dtype=bool), []
-    for start in range(len(facets)):
-        if seen[start]:
-            continue
-        ring = [start]
-        while (vertex := follow[ring[-1]]) != start:
-            ring.append(vertex)
-        seen[ring] = True
-        rings.append(np.array(ring))
-    return rings
-
-
-def _turn(ring: np.ndarray) -> int:
-    """+1 for a counter-clockwise simple ring, -1 clockwise, 0 if flat at its lowest vertex; exact."""
-    k = int(np.lexsort((ring[:, 0], ring[:, 1]))[0])
-    return int(orientation(ring[[[k - 1, k, (k + 1) % len(ring)]]])[0])
-
-
-def _nesting(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How many other rings surround each ring, and how each one turns."""
-    turn = np.array([_turn(ring) for ring in rings])
-    first = np.array([ring[0] for ring in rings])
-    depth = np.zeros(len(rings), dtype=int)
-    for k, ring in enumerate(rings):
-        inside = locate(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1), first) > 0
-        inside[k] = False
-        depth += inside
-    return depth, turn

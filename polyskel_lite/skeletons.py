@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
-import numpy as np
-
+from ._inside import VoronoiInShape
 from .complexes import Skeleton, dual_complex
-from .conforming import DelaunayShape, delaunay_shape
+from .delaunay_shapes import DelaunayShape, delaunay_shape
 from .errors import InputError
-from .graphs import Tessellation, delaunay
-from .segments import clip_exactly, locate, locate_exactly, overlapping_pairs, point_segment_distance
 from .shapes import Shape
 
 _SIDES = {"inner": 1, "outer": -1}
@@ -84,7 +79,7 @@ def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     >>> sk1(Shape.from_rings([[(0, 0), (4, 0), (4, 2), (0, 2)]])).vertices.tolist()
     [[2.0, 1.0], [2.0, 1.0]]
     """
-    return _VoronoiInShape(shape, E, side).vertices()
+    return _voronoi(shape, E, side).vertices()
 
 
 def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
@@ -117,7 +112,7 @@ def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     >>> skeleton.betti()
     (1, 0)
     """
-    return _VoronoiInShape(shape, E, side).elements()
+    return _voronoi(shape, E, side).elements()
 
 
 def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
@@ -150,232 +145,13 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     >>> len(sk3(rectangle, E).edges) - len(sk2(rectangle, E).edges)
     8
     """
-    return _VoronoiInShape(shape, E, side).intersection()
+    return _voronoi(shape, E, side).intersection()
 
 
-class _VoronoiInShape:
-    """The Voronoi graph of E seen from the shape: what is inside, and where the boundary cuts."""
-
-    def __init__(self, shape: Shape, E, side: str):
-        if not isinstance(shape, Shape):
-            raise InputError(f"shape is a {type(shape).__name__}; pass a Shape (X), and the samples as E.")
-        self.side = _side(side)
-        self.segments = shape.segments
-        self.tessellation = E if isinstance(E, Tessellation) else delaunay(shape.points if E is None else E)
-        self.error = _circumcenter_error(self.tessellation)
-        self.inside = self._vertices_inside()
-        low, high = shape.points.min(axis=0), shape.points.max(axis=0)
-        # A ray cut at this length ends outside the box of the shape, wherever it begins.
-        self.extent = float(np.abs(np.concatenate([self.tessellation.points, [low, high]])).max())
-
-    def vertices(self) -> Skeleton:
-        keep = self.inside
-        nothing = np.ones(len(self.tessellation.facet_table[0]), dtype=bool)
-        return dual_complex(self.tessellation, keep, cut=nothing)
-
-    def elements(self) -> Skeleton:
-        crossed = self._crossed()
-        return dual_complex(self.tessellation, self.inside, cut=crossed, rays=self.side < 0)
-
-    def intersection(self) -> Skeleton:
-        sk2 = self.elements()
-        number = np.where(self.inside, np.cumsum(self.inside) - 1, -1)
-        sides = self.tessellation.facet_table[1]
-        points, radii, edges, rays, ray_vertices = [], [], [], [], []
-
-        def add(row, t):
-            points.append(self._at(row, t))
-            sample = self.tessellation.points[self.tessellation.facets()[row, 0]]
-            radii.append(np.hypot(*(points[-1] - sample)))
-            return len(sk2.vertices) + len(points) - 1
-
-        for row in np.flatnonzero(self.partial).tolist():
-            first, second = sides[row].tolist()
-            for t0, t1 in self.pieces[row]:
-                begin = int(number[first]) if t0 == 0 else add(row, t0)
-                if t1 == 1 and second < 0:
-                    rays.append(self._direction(row))
-                    ray_vertices.append(begin)
-                else:
-                    edges.append((begin, int(number[second]) if t1 == 1 else add(row, t1)))
-        return Skeleton(
-            vertices=np.concatenate([sk2.vertices, np.reshape(points, (-1, 2))]),
-            radii=np.concatenate([sk2.radii, radii]),
-            simplices=np.concatenate([sk2.simplices, np.full(len(points), -1)]),
-            edges=np.concatenate([sk2.edges, np.reshape(edges, (-1, 2)).astype(np.int64)]),
-            rays=np.concatenate([sk2.rays, np.reshape(rays, (-1, 2))]),
-            ray_vertices=np.concatenate([sk2.ray_vertices, np.array(ray_vertices, dtype=np.int64)]),
-            tessellation=self.tessellation,
-        )
-
-    def _vertices_inside(self) -> np.ndarray:
-        centers, error = self.tessellation.circumcenters, self.error
-        sure = np.isfinite(error) & np.isfinite(centers).all(axis=1)
-        sure[sure] = ~_near(centers[sure], error[sure], self.segments)
-        inside = np.zeros(len(centers), dtype=bool)
-        inside[sure] = self.side * locate(self.segments, centers[sure]) >= 0
-        for k in np.flatnonzero(~sure):
-            inside[k] = self.side * locate_exactly(self.segments, self._center(k)) >= 0
-        return inside
-
-    def _crossed(self) -> np.ndarray:
-        """Voronoi edges (rows of ``facet_table``) that are not wholly inside; fills ``pieces``."""
-        sides = self.tessellation.facet_table[1]
-        finite = np.isfinite(self.tessellation.circumcenters).all(axis=1)
-        error = np.append(self.error, 0.0)[sides]
-        error[sides[:, 1] < 0, 1] = error[sides[:, 1] < 0, 0]
-        doubt = ~finite[sides[:, 0]] | ~np.append(finite, True)[sides[:, 1]] | ~np.isfinite(error).all(axis=1)
-        ends = np.zeros((len(sides), 2, 2))
-        clear = np.flatnonzero(~doubt)
-        ends[clear, 0] = self.tessellation.circumcenters[sides[clear, 0]]
-        ends[clear, 1] = self._float_ends(clear)
-        slack = np.where(doubt, 0.0, error.max(axis=1))
-        hits: list[tuple[np.ndarray, np.ndarray]] = []
-        low, high = ends.min(axis=1) - slack[:, None], ends.max(axis=1) + slack[:, None]
-        box_low, box_high = self.segments.min(axis=1), self.segments.max(axis=1)
-        for i, j in overlapping_pairs(low[clear], high[clear], box_low, box_high):
-            i = clear[i]
-            t, meets, unsure = _crossing(ends[i], self.segments[j], slack[i])
-            doubt[i[unsure]] = True
-            hits.append((i[meets], t[meets]))
-        rows = np.concatenate([h[0] for h in hits]) if hits else np.zeros(0, dtype=np.int64)
-        times = np.concatenate([h[1] for h in hits]) if hits else np.zeros(0)
-        self.ends, self.pieces = ends, {}
-        starts_inside = self.inside[sides[:, 0]]
-        whole = starts_inside & ~doubt
-        whole[rows] = False
-        partial = np.zeros(len(sides), dtype=bool)
-        order = np.lexsort((times, rows))
-        rows, times = rows[order], times[order]
-        for row in np.unique(rows[~doubt[rows]]).tolist():
-            begin, end = np.searchsorted(rows, [row, row + 1])
-            cuts = [0.0, *times[begin:end].tolist(), 1.0]
-            # The side changes at every crossing.
-            self.pieces[row] = list(zip(cuts, cuts[1:], strict=False))[0 if starts_inside[row] else 1 :: 2]
-            partial[row] = True
-        for row in np.flatnonzero(doubt).tolist():
-            pieces = clip_exactly(self.segments, *self._exact_ends(row), self.side)
-            whole[row] = pieces == [(0, 1)]
-            if pieces and not whole[row]:
-                self.pieces[row] = pieces
-                partial[row] = True
-        self.partial = partial
-        return ~whole
-
-    def _float_ends(self, rows):
-        sides = self.tessellation.facet_table[1][rows]
-        centers = self.tessellation.circumcenters
-        out = centers[np.maximum(sides[:, 1], 0)].copy()
-        open_rows = np.flatnonzero(sides[:, 1] < 0)
-        for k in open_rows.tolist():
-            out[k] = self._far(rows[k], centers[sides[k, 0]])
-        return out
-
-    def _direction(self, row) -> np.ndarray:
-        from .complexes import outward_normals
-
-        return outward_normals(self.tessellation, np.array([row]))[0]
-
-    def _far(self, row, start):
-        return start + self._direction(row) * 4 * (self.extent + np.abs(start).max())
-
-    def _at(self, row, t) -> np.ndarray:
-        if isinstance(t, Fraction):
-            (ax, ay), (bx, by) = self._exact_ends(row)
-            return np.array([float(ax + t * (bx - ax)), float(ay + t * (by - ay))])
-        a, b = self.ends[row]
-        return a + t * (b - a)
-
-    def _center(self, k) -> tuple[Fraction, Fraction]:
-        return exact_circumcenter(self.tessellation.points[self.tessellation.simplices[k]])
-
-    def _exact_ends(self, row):
-        first, second = self.tessellation.facet_table[1][row].tolist()
-        start = self._center(first)
-        if second >= 0:
-            return start, self._center(second)
-        (ax, ay), (bx, by) = (
-            [Fraction(x) for x in p]
-            for p in self.tessellation.points[self.tessellation.facets()[row]].tolist()
-        )
-        normal = (by - ay, ax - bx)
-        outward = self._direction(row)
-        if normal[0] * Fraction(outward[0]) + normal[1] * Fraction(outward[1]) < 0:
-            normal = (-normal[0], -normal[1])
-        reach = (
-            4 * (Fraction(self.extent) + abs(start[0]) + abs(start[1])) / max(abs(normal[0]), abs(normal[1]))
-        )
-        return start, (start[0] + normal[0] * reach, start[1] + normal[1] * reach)
-
-
-def exact_circumcenter(triangle: np.ndarray) -> tuple[Fraction, Fraction]:
-    """Circumcenter of one triangle (3, 2) as rational numbers.
-
-    Examples
-    --------
-    >>> exact_circumcenter(np.array([(0, 0), (1, 0), (0, 3)]))
-    (Fraction(1, 2), Fraction(3, 2))
-    """
-    (ax, ay), (bx, by), (cx, cy) = [
-        (Fraction(x), Fraction(y)) for x, y in np.asarray(triangle, dtype=float).tolist()
-    ]
-    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
-    twice = 2 * (bx * cy - by * cx)
-    lb, lc = bx * bx + by * by, cx * cx + cy * cy
-    return ax + (cy * lb - by * lc) / twice, ay + (bx * lc - cx * lb) / twice
-
-
-def _circumcenter_error(tessellation: Tessellation) -> np.ndarray:
-    """A bound on the distance between each float circumcenter and the true one, (t,)."""
-    unit = 2.0**-53
-    corners = tessellation.points[tessellation.simplices]
-    d = np.abs(corners[:, 1:] - corners[:, :1])
-    signed = corners[:, 1:] - corners[:, :1]
-    determinant = np.abs(signed[:, 0, 0] * signed[:, 1, 1] - signed[:, 0, 1] * signed[:, 1, 0])
-    permanent = d[:, 0, 0] * d[:, 1, 1] + d[:, 0, 1] * d[:, 1, 0]
-    lift = (d**2).sum(axis=2)
-    numerator = (d[:, 1] * lift[:, :1] + d[:, 0] * lift[:, 1:]).sum(axis=1)
-    radii = tessellation.circumradii
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # Rounding of numerator and denominator, each a few units of the sum of its absolute terms.
-        relative = 16 * unit * permanent / determinant
-        error = 16 * unit * (numerator / determinant + radii * permanent / determinant)
-        error += 4 * unit * np.abs(tessellation.circumcenters).max(axis=1)
-    return np.where(np.isfinite(error) & (relative < 0.25), error, np.inf)
-
-
-def _near(queries, error, segments) -> np.ndarray:
-    """Which queries are within their error of a segment."""
-    near = np.zeros(len(queries), dtype=bool)
-    low, high = segments.min(axis=1), segments.max(axis=1)
-    for i, j in overlapping_pairs(queries - error[:, None], queries + error[:, None], low, high):
-        near[i[point_segment_distance(queries[i], segments[j]) <= 2 * error[i]]] = True
-    return near
-
-
-def _crossing(edges, segments, slack):
-    """Where edges cross segments: parameter on the edge, whether they cross, whether that is in doubt."""
-    p, d = edges[:, 0], edges[:, 1] - edges[:, 0]
-    a, e = segments[:, 0], segments[:, 1] - segments[:, 0]
-
-    def cross(u, v):
-        return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-
-    # Signed distances of each one's ends to the other one's line, and how far rounding and slack can move them.
-    length_d, length_e = np.sqrt((d**2).sum(axis=1)), np.sqrt((e**2).sum(axis=1))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        of_edge = np.stack([cross(e, p - a), cross(e, p + d - a)]) / length_e
-        of_segment = np.stack([cross(d, a - p), cross(d, a + e - p)]) / length_d
-        span = length_d + length_e + np.sqrt(((a - p) ** 2).sum(axis=1))
-        blur = 2 * slack + 16 * 2.0**-53 * span
-        # Tilting the edge by its error moves its line at most this much where the segment is.
-        blur_segment = blur * (1 + 2 * span / length_d)
-        t = of_edge[0] / (of_edge[0] - of_edge[1])
-    meets = (of_edge[0] * of_edge[1] < 0) & (of_segment[0] * of_segment[1] < 0)
-    apart = (np.abs(of_edge) > blur).all(axis=0) & (of_edge[0] * of_edge[1] > 0)
-    apart |= (np.abs(of_segment) > blur_segment).all(axis=0) & (of_segment[0] * of_segment[1] > 0)
-    sure = (np.abs(of_edge) > blur).all(axis=0) & (np.abs(of_segment) > blur_segment).all(axis=0)
-    return t, meets & sure, ~(apart | sure)
+def _voronoi(shape: Shape, E, side: str) -> VoronoiInShape:
+    if not isinstance(shape, Shape):
+        raise InputError(f"shape is a {type(shape).__name__}; pass a Shape (X), and the samples as E.")
+    return VoronoiInShape(shape, E, _side(side))
 
 
 def _side(side: str) -> int:

@@ -83,7 +83,7 @@ def empty_circles(samples: list[Point]) -> list[frozenset]:
 
 
 def voronoi_elements(samples: list[Point]):
-    """Voronoi vertices {centre: samples on the circle} and edges [(p, q, centre, centre or None)], by definition."""
+    """Voronoi vertices {centre: samples on the circle}, edges [(p, q, centre, centre or None)]."""
     vertices: dict[Point, frozenset] = {}
     for on in empty_circles(samples):
         vertices[circumcenter(*sorted(on)[:3])] = on
@@ -132,7 +132,7 @@ def sk2_oracle(samples, segments, side: int):
 def grid_region(
     rng: np.random.Generator, size: int = 5, fill: float = 0.55, hole: bool = False
 ) -> list[list[tuple[int, int]]]:
-    """Rings of a random union of grid cells, skewed and jittered: components, holes, reflex and acute corners.
+    """Rings of a random union of grid cells, skewed and jittered: components, holes, all kinds of corners.
 
     Cells are on a lattice of step 12 and every corner is moved by up to 2, so rings never meet.
     With ``hole`` an inner cell is empty and the ones around it are full.

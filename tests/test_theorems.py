@@ -1,4 +1,4 @@
-"""Theorems 1 and 2 on 1,000 random regions, in rational arithmetic, inside and complement; and where they break."""
+"""Theorems 1 and 2 on 1,000 random regions, in rational arithmetic, both sides; and where they break."""
 
 from fractions import Fraction
 
@@ -12,7 +12,7 @@ BATCHES, PER_BATCH = 20, 50
 
 
 def dual_of(P, side):
-    """Sk0 from the library's labels, with exact coordinates: vertices, edges by their two samples, lengths kept."""
+    """Sk0 from the library's labels with exact coordinates: vertices, edges by their two samples, rays."""
     samples = rational(P.tessellation.points)
     skeleton = psl.sk0(P, side)
     corners = P.tessellation.simplices[skeleton.simplices]
@@ -42,7 +42,7 @@ def hull_facet(P, triangle, ray, samples):
 
 
 def check(shape):
-    """Both theorems for one shape whose boundary is strictly Gabriel: raises AssertionError with what differs."""
+    """Both theorems for one shape whose boundary is strictly Gabriel; AssertionError if they fail."""
     P = psl.delaunay_shape(shape)
     samples = rational(shape.points)
     segments = [(samples[a], samples[b]) for a, b in shape.facets.tolist()]
