@@ -1,4 +1,4 @@
-"""Sphinx's settings. The book's own choices stand in ../book.toml; what is here makes its pages work offline."""
+"""Settings for Sphinx. The choices of the book stand in ../book.toml; the rest makes pages work offline."""
 
 import json
 import tomllib

@@ -1,4 +1,4 @@
-"""Run chapters from top to bottom in a fresh kernel and store the outputs: `make run`, or with names of chapters.
+"""Run chapters from top to bottom in a fresh kernel and store the outputs (`make run`).
 
     .venv/bin/python tools/run_notebooks.py [02_1_shapes ...]
 

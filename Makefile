@@ -1,0 +1,64 @@
+# make book, make test: the two commands of the README. `make help` lists the others.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+JOBS   ?= 2
+FIRST  := notebooks/01_introduction.ipynb
+
+.DEFAULT_GOAL := help
+.PHONY: help book test lint unit chapters lab figures run lock clean
+
+help:  ## list the commands
+	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
+
+# The stamp is newer than the lock once everything in it is installed, so this runs only when the lock changes.
+$(VENV)/.installed: requirements.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	  echo "polyskel_lite needs Python 3.11 or newer; '$(PYTHON)' is $$($(PYTHON) -V 2>/dev/null || echo not there)." \
+	       "Name another one, for example: make PYTHON=python3.12 $(or $(MAKECMDGOALS),book)"; exit 1; }
+	@echo "Installing the packages of requirements.lock into $(VENV) (once, a minute or two) ..."
+	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --require-hashes -r requirements.lock
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --no-deps --no-build-isolation -e .
+	@touch $@
+
+book: $(VENV)/.installed  ## build the HTML book from book.toml and notebooks/
+	@echo "Building the book (about half a minute the first time) ..."
+	@$(BIN)/python -m sphinx -W --keep-going -q -b html -d _build/doctrees notebooks _build/html
+	@$(BIN)/python tools/check_offline.py _build/html
+	@echo "The book is ready. Open $(CURDIR)/_build/html/index.html"
+
+test: lint unit chapters  ## run everything: ruff, tests, doctests, every notebook compared with its stored outputs
+	@echo "All passed."
+
+lint: $(VENV)/.installed  ## ruff: rules and format
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+
+unit: $(VENV)/.installed  ## unit and property tests, doctests
+	@echo "Unit tests, property tests and doctests ..."
+	@$(BIN)/python -m pytest -n $(JOBS) --mpl
+
+# addopts is emptied because doctest has nothing to find in a notebook. A chapter is one process: --dist loadfile.
+chapters: $(VENV)/.installed  ## run every notebook and compare with what is stored
+	@echo "Every chapter from top to bottom, compared with its stored outputs ..."
+	@$(BIN)/python -m pytest -o addopts= -n $(JOBS) --dist loadfile --nbval --nbval-current-env \
+	  --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 600 notebooks
+
+lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
+	$(BIN)/jupyter lab $(FIRST)
+
+figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to figures/
+	@echo "Drawing the paper's figures into figures/ ..."
+	@$(BIN)/python -m polyskel_lite.figures figures/
+
+run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs
+	@$(BIN)/python tools/run_notebooks.py
+
+lock: $(VENV)/.installed  ## maintainers: resolve pyproject.toml anew into requirements.lock (needs uv)
+	@uv pip compile pyproject.toml --extra lab --extra book --extra test --universal --python-version 3.11 \
+	  --generate-hashes --no-emit-index-url --no-header -o requirements.lock
+
+clean:  ## remove what the commands above made, except the environment
+	rm -rf _build figures dist .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

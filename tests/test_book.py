@@ -1,0 +1,119 @@
+"""What every chapter must have, and that book.toml and notebooks/ name the same files."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+LONGEST_CELL = 25
+LARGEST_FILE = 1_500_000
+# A path of the machine that ran the notebook tells a reader nothing, and differs on the next machine.
+MACHINE_PATHS = re.compile(r"(?:/root/|/home/|/Users/|/tmp/|C:\\\\)")
+
+
+def chapters_of_book() -> list[str]:
+    toc = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))["toc"]
+    return [toc["root"]] + [chapter["file"] for part in toc["parts"] for chapter in part["chapters"]]
+
+
+def cells(path: Path, kind: str) -> list[dict]:
+    notebook = json.loads(path.read_text(encoding="utf-8"))
+    return [cell for cell in notebook["cells"] if cell["cell_type"] == kind]
+
+
+def text(cell: dict) -> str:
+    return "".join(cell["source"])
+
+
+def has_picture(cell: dict) -> bool:
+    return any(kind.startswith("image/") for output in cell["outputs"] for kind in output.get("data", {}))
+
+
+def test_book_and_folder_name_the_same_chapters():
+    found = [path.stem for path in (ROOT / "notebooks").glob("*") if path.suffix in (".ipynb", ".md")]
+    assert sorted(chapters_of_book()) == sorted(found)
+
+
+def test_labels_are_unique_over_the_book():
+    labels = []
+    for path in NOTEBOOKS:
+        prose = "\n".join(text(cell) for cell in cells(path, "markdown"))
+        labels += re.findall(r"^\s*:(?:label|name): *(\S+)", prose, re.M)
+        labels += re.findall(r"^\((\S+)\)=$", prose, re.M) + re.findall(r"^\$\$ *\((\S+)\)", prose, re.M)
+        labels += [
+            cell["metadata"].get("mystnb", {}).get("figure", {}).get("name") for cell in cells(path, "code")
+        ]
+    labels = [label for label in labels if label]
+    assert not {label for label in labels if labels.count(label) > 1}
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+class TestChapter:
+    def test_every_code_cell_was_run_in_order(self, path):
+        counts = [cell["execution_count"] for cell in cells(path, "code")]
+        assert counts == list(range(1, len(counts) + 1)), "run tools/run_notebooks.py and store the outputs"
+
+    def test_no_output_is_an_error_or_a_warning(self, path):
+        for cell in cells(path, "code"):
+            bad = [o for o in cell["outputs"] if o["output_type"] == "error" or o.get("name") == "stderr"]
+            assert not bad, f"{text(cell)}\n{bad}"
+
+    def test_every_picture_has_caption_name_and_alternative_text(self, path):
+        for cell in filter(has_picture, cells(path, "code")):
+            metadata = cell["metadata"].get("mystnb", {})
+            assert len(metadata.get("image", {}).get("alt", "").strip()) >= 20, f"no alt text:\n{text(cell)}"
+            assert metadata.get("figure", {}).get("caption", "").strip(), f"no caption:\n{text(cell)}"
+            assert metadata["figure"].get("name", "").startswith("fig-"), f"no name fig-...:\n{text(cell)}"
+            assert len(cell["outputs"]) == 1, f"prints beside its picture (end it with ;):\n{text(cell)}"
+
+    def test_every_caption_has_its_picture(self, path):
+        captioned = [cell for cell in cells(path, "code") if "figure" in cell["metadata"].get("mystnb", {})]
+        assert all(map(has_picture, captioned))
+
+    def test_pictures_in_the_text_have_alternative_text(self, path):
+        for cell in cells(path, "markdown"):
+            assert not re.search(r"!\[\s*\]\(", text(cell)), text(cell)
+            for figure in re.findall(r"\{(?:figure|image)\}.*?```", text(cell), re.S):
+                assert re.search(r":alt: *\S", figure), figure
+
+    def test_no_code_cell_is_long(self, path):
+        for cell in cells(path, "code"):
+            assert len(text(cell).splitlines()) <= LONGEST_CELL, text(cell)
+
+    def test_one_title(self, path):
+        prose = "\n".join(text(cell) for cell in cells(path, "markdown"))
+        prose = re.sub(r"^(`{3,}|:{3,}).*?^\1`*$", "", prose, flags=re.S | re.M)
+        assert len(re.findall(r"^# ", prose, re.M)) == 1
+
+    def test_every_exercise_has_a_folded_solution(self, path):
+        prose = "\n".join(text(cell) for cell in cells(path, "markdown"))
+        exercises = re.findall(r"\{exercise(?:-start)?\}.*?:label: (\S+)", prose, re.S)
+        solutions = re.findall(r"\{solution(?:-start)?\} (\S+)\n((?::.*\n)*)", prose)
+        assert sorted(exercises) == sorted(name for name, _ in solutions)
+        assert all(":class: dropdown" in options for _, options in solutions)
+
+    def test_file_is_small_and_names_no_machine(self, path):
+        assert path.stat().st_size < LARGEST_FILE
+        for cell in cells(path, "code"):
+            shown = [output for output in cell["outputs"] if not has_picture({"outputs": [output]})]
+            assert not MACHINE_PATHS.search(text(cell) + json.dumps(shown)), text(cell)
+
+
+def test_checker_of_pages_finds_what_it_looks_for(tmp_path):
+    page = '<a href="gone.html">x</a><img src="//host/x.png"><a href="https://host/">a link is fine</a>'
+    (tmp_path / "index.html").write_text(page, encoding="utf-8")
+    command = [sys.executable, str(ROOT / "tools" / "check_offline.py"), str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stdout.splitlines() == [
+        "index.html fetches //host/x.png",
+        "index.html names a missing file: gone.html",
+    ]
+    (tmp_path / "index.html").write_text('<img src="data:image/png;base64,AA==">', encoding="utf-8")
+    assert subprocess.run(command, capture_output=True).returncode == 0
