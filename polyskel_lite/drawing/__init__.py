@@ -1,0 +1,68 @@
+"""Pictures with matplotlib: every function takes an axes first and the data second, and returns the axes.
+
+Nothing here computes geometry that the rest of the library does not know, and nothing imports widgets. One
+colour and one line pattern stand for each kind of object throughout the book (`KINDS`, `legend`).
+
+Examples
+--------
+>>> import matplotlib.pyplot as plt
+>>> import polyskel_lite as psl
+>>> from polyskel_lite import drawing
+>>> square = psl.Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).resample(12)
+>>> fig, ax = drawing.axes()
+>>> ax = drawing.draw_shape(ax, square)
+>>> ax = drawing.draw_skeleton(ax, psl.sk0(square), kind="sk0")
+>>> ax = drawing.legend(ax, "shape", "sk0")
+>>> plt.close(fig)
+"""
+
+from .balls import draw_ball, draw_balls
+from .graphs import draw_delaunay, draw_gabriel, draw_skeleton, draw_voronoi
+from .planar import draw_lines, draw_samples, draw_shape
+from .spatial import (
+    VIEW,
+    axes_3d,
+    draw_facets_3d,
+    draw_lines_3d,
+    draw_mesh,
+    draw_samples_3d,
+    focus_3d,
+)
+from .spatial_graphs import draw_tessellation_3d, draw_voronoi_3d
+from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, legend, setup
+from .view import box_of, chains, clip_segments, focus, inset, ray_segments
+
+__all__ = [
+    "KINDS",
+    "RC",
+    "TEXT_WIDTH",
+    "VIEW",
+    "Kind",
+    "axes",
+    "axes_3d",
+    "box_of",
+    "chains",
+    "clip_segments",
+    "draw_ball",
+    "draw_balls",
+    "draw_delaunay",
+    "draw_facets_3d",
+    "draw_gabriel",
+    "draw_lines",
+    "draw_lines_3d",
+    "draw_mesh",
+    "draw_samples",
+    "draw_samples_3d",
+    "draw_shape",
+    "draw_skeleton",
+    "draw_tessellation_3d",
+    "draw_voronoi",
+    "draw_voronoi_3d",
+    "focus",
+    "focus_3d",
+    "handle",
+    "inset",
+    "legend",
+    "ray_segments",
+    "setup",
+]

@@ -1,0 +1,34 @@
+"""The paper's figures, each one function: data in, figure out.
+
+Called without data each function takes a shape of `polyskel_lite.datasets`; caption and alt text are its
+attributes. ``python -m polyskel_lite.figures FOLDER`` writes them all as PDF, SVG and PNG.
+
+Examples
+--------
+>>> import matplotlib.pyplot as plt
+>>> from polyskel_lite import figures
+>>> figure = figures.figure_2([(0, 0), (2, 0), (0, 1), (3, 3), (1, 2)])
+>>> len(figure.axes)
+3
+>>> plt.close(figure)
+>>> list(figures.FIGURES)
+['figure_1', 'figure_2', 'figure_2_3d', 'figure_3', 'figure_4', 'figure_5', 'figure_13']
+"""
+
+from .definitions import figure_1, figure_2, figure_2_3d
+from .methods import figure_3, figure_4, figure_5, regular_shape
+from .proof import figure_13
+from .registry import FIGURES, write_figures
+
+__all__ = [
+    "FIGURES",
+    "figure_1",
+    "figure_2",
+    "figure_2_3d",
+    "figure_3",
+    "figure_4",
+    "figure_5",
+    "figure_13",
+    "regular_shape",
+    "write_figures",
+]
