@@ -1,0 +1,20 @@
+"""Every claim of the register `notebooks/claims.toml`, checked again from data.
+
+``CHECKS[id]()`` computes and returns the verdict of one claim, and
+``pytest "tests/test_claims.py::test_verdict[id]"`` compares it with the register.
+"""
+
+from . import comparison, complexity, graphs, introduction, methods, polyballs, proof
+from .registry import CHECKS, VERDICTS
+
+__all__ = [
+    "CHECKS",
+    "VERDICTS",
+    "comparison",
+    "complexity",
+    "graphs",
+    "introduction",
+    "methods",
+    "polyballs",
+    "proof",
+]

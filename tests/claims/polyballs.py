@@ -1,0 +1,197 @@
+"""Section 3.2: the second method, and its reading as the skeleton of a polyball."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+
+import polyskel_lite as psl
+
+from .geometry import ELLIPSE_SKELETON, SWALLOWED, ellipse, exact, ring, strictly_gabriel_boundary
+from .introduction import L_SHAPE, _sites
+from .methods import dense_ellipse
+from .registry import check, definition, reproduced, verdict
+
+
+@cache
+def skeleton_of_ellipse(n: int, start: float = 0.3) -> psl.Skeleton:
+    return psl.sk2(dense_ellipse(), ellipse(n, start))
+
+
+@check("voronoi-elements")
+def kinds_of_elements():
+    """Edges are straight and orthogonal to their Delaunay facet; polygons are flat and convex."""
+    points = np.random.default_rng(7).random((40, 3))
+    graph = psl.voronoi(points)
+    for polygon in graph.polygons:
+        corners = graph.vertices[polygon]
+        normal = np.linalg.svd(corners - corners.mean(axis=0))[2][2]
+        if np.abs((corners - corners.mean(axis=0)) @ normal).max() > 1e-6 * np.abs(corners).max():
+            return verdict(False)
+        sides = np.roll(corners, -1, axis=0) - corners
+        turns = np.cross(sides, np.roll(sides, -1, axis=0)) @ normal
+        if not ((turns > -1e-9).all() or (turns < 1e-9).all()):
+            return verdict(False)
+    plane = psl.sk2(ring(L_SHAPE), ring(L_SHAPE).sample(60))
+    return verdict(plane.edges.shape[1] == 2 and not len(plane.polygons))
+
+
+@check("sk2-converges")
+def second_method_converges():
+    """Ellipse 2 : 1: the distance falls like 1/n², down to the step of the measurement."""
+    distances = [
+        psl.hausdorff(skeleton_of_ellipse(n), ELLIPSE_SKELETON, step=5e-4) for n in (10, 20, 40, 80, 160)
+    ]
+    falls = all(b < 0.5 * a for a, b in pairwise(distances))
+    return verdict(falls and distances[-1] < 2e-3)
+
+
+@check("def-yw")
+def union_of_inner_balls():
+    """Y_w has one ball per Voronoi vertex in X, through its three samples, with no sample inside."""
+    horse = psl.datasets.load("horse")
+    E = horse.sample(96, start=0.7)
+    Y, t = psl.sk2(horse, E).balls(), psl.delaunay(E)
+    inside = horse.contains(t.circumcenters)
+    distance = np.linalg.norm(Y.centers[:, None] - E, axis=2)
+    on = np.sort(np.abs(distance - Y.radii[:, None]), axis=1)[:, :3].max()
+    empty = (distance - Y.radii[:, None]).min()
+    return definition(len(Y) == inside.sum() and on < 1e-9 and empty > -1e-9)
+
+
+@check("sk2-polyball")
+def second_method_is_not_the_skeleton():
+    """A strictly Gabriel hexagon whose reflex sample is inside Y_w: edges of Sk2 lose a contact point."""
+    shape = ring(SWALLOWED)
+    assert strictly_gabriel_boundary(shape)
+    reflex = exact(shape)[0].index((0, 0))
+    second = psl.sk2(shape)
+    Y = second.balls()
+    # All directions from the sample lead into some kept ball: the centres turn by less than half a turn.
+    angle = np.sort(np.arctan2(Y.centers[:, 1], Y.centers[:, 0]))
+    swallowed = np.diff(np.append(angle, angle[0] + 2 * np.pi)).max() < np.pi - 0.1
+    larger = 0
+    for a, b in second.edges:
+        m = (second.vertices[a] + second.vertices[b]) / 2
+        distance = np.linalg.norm(shape.points - m, axis=1)
+        first, other = np.argsort(distance)[:2]
+        assert reflex in (first, other)  # every edge of this Sk2 is equidistant from the reflex sample
+        contact = shape.points[other if first == reflex else first]
+        away, radius = (m - contact) / distance[first], distance[first]
+        # The ball around m fits into a larger one in Y_w that keeps the contact point.
+        grown = Y.boundary_distance([m + 0.05 * away])[0] >= radius + 0.05 - 1e-9
+        larger += bool(grown and Y.contains([m + 0.05 * away])[0])
+    return verdict(printed=not (swallowed and larger == len(second.edges)))
+
+
+@check("polyball-approximates")
+def polyball_comes_near():
+    """Ellipse: the farthest point of ∂Y_w from ∂X, and the other way round, falls like 1/n²."""
+    X, distances = dense_ellipse(), []
+    for n in (10, 20, 40, 80):
+        Y = skeleton_of_ellipse(n).balls()
+        arcs = zip(*Y.arcs(), strict=True)
+        points = [
+            Y.centers[k] + Y.radii[k] * np.array([np.cos(u), np.sin(u)])
+            for k, first, last in arcs
+            for u in np.linspace(first, last, 9)
+        ]
+        there, back = X.boundary_distance(np.array(points)).max(), Y.boundary_distance(ellipse(500)).max()
+        distances.append(max(there, back))
+    return verdict(all(b < 0.5 * a for a, b in pairwise(distances)))
+
+
+def _polyball(seed: int = 3) -> psl.Polyball:
+    rng = np.random.default_rng(seed)
+    return psl.Polyball(rng.uniform(-1.5, 1.5, (6, 2)), rng.uniform(0.7, 1.1, 6))
+
+
+def _grows(Y: psl.Polyball, m: np.ndarray, t: float = 1e-4) -> bool:
+    """Whether the largest ball in Y around m fits into a larger one whose centre is t away."""
+    radius = Y.boundary_distance([m])[0]
+    u = np.linspace(0, 2 * np.pi, 721)[:-1]
+    around = m + t * np.column_stack([np.cos(u), np.sin(u)])
+    # A ball that grows by t and moves by t still holds the old one.
+    return bool((Y.boundary_distance(around) >= radius + t * (1 - 2e-5)).any())
+
+
+@check("polyball-skeleton-simple")
+def pieces_of_a_polyball_skeleton():
+    """Balls around equidistant points of two singular points are maximal, others are not: straight pieces.
+
+    A single disc shows the condition: its skeleton is a point, a segment of no length.
+    """
+    rng = np.random.default_rng(9)
+    maximal, others = 0, 0
+    for seed in range(4):
+        Y = _polyball(seed)
+        S = Y.singular_points()
+        for i in range(len(S)):
+            for j in range(i):
+                middle, along = (S[i] + S[j]) / 2, (S[i] - S[j])[::-1] * [1, -1]
+                for s in rng.uniform(-1.5, 1.5, 6):
+                    m = middle + s * along
+                    near = np.linalg.norm(S - m, axis=1).min()
+                    nearest = abs(np.linalg.norm(S[i] - m) - near) < 1e-9 and near > 1e-3
+                    if nearest and Y.contains([m])[0] and abs(Y.boundary_distance([m])[0] - near) < 1e-9:
+                        maximal += 1
+                        if _grows(Y, m):
+                            return verdict(False)
+        for m in rng.uniform(-2, 2, (40, 2)):
+            distance = np.sort(np.linalg.norm(S - m, axis=1))
+            centered = np.linalg.norm(Y.centers - m, axis=1).min() < 0.02
+            if Y.contains([m])[0] and distance[1] - distance[0] > 0.02 and not centered:
+                others += 1
+                if not _grows(Y, m):
+                    return verdict(False)
+    assert maximal > 10 < others
+    disc = psl.Polyball([(0, 0)], [1])
+    only_center = not _grows(disc, np.zeros(2)) and _grows(disc, np.array([0.3, 0.1]))
+    return verdict(printed=not only_center, repaired=True)
+
+
+@check("fig-4")
+def figure():
+    return reproduced("figure_4", 4)
+
+
+@check("sampling-stable")
+def samples_shifted():
+    """Ellipse, samples moved along by half a step: far apart with 10 samples, nearer and nearer with more."""
+    shifts = [
+        psl.hausdorff(skeleton_of_ellipse(n, 0.0), skeleton_of_ellipse(n, 0.5), step=1e-3)
+        for n in (10, 20, 40)
+    ]
+    balls = skeleton_of_ellipse(20, 0.0).balls().boundary_distance(ellipse(20, 0.5)).max()
+    dense = shifts[-1] < 0.02 and all(b < 0.5 * a for a, b in pairwise(shifts))
+    assert balls > 1e-3  # the two polyballs do differ
+    return verdict(printed=shifts[0] < 0.05, repaired=dense)
+
+
+@check("polygon-skeleton-branches")
+def polygon_skeleton_has_branches():
+    """Convex corners: points on the bisector have both sides as nearest sites, down to the corner itself.
+
+    So the skeleton of P_w reaches every sample of the ellipse, at least 1/2 away from Sk(X), for every n;
+    Sk2 of the same samples comes near.
+    """
+    for n in (20, 80, 320):
+        E = ellipse(n)
+        before, after = np.roll(E, 1, axis=0) - E, np.roll(E, -1, axis=0) - E
+        before /= np.linalg.norm(before, axis=1)[:, None]
+        after /= np.linalg.norm(after, axis=1)[:, None]
+        bisector = (before + after) / np.linalg.norm(before + after, axis=1)[:, None]
+        on_branch = E + bisector * 1e-3 / n
+        nearest = _sites(E, on_branch)
+        reach = np.abs(on_branch[:, 1]).max()
+        if not (np.ptp(nearest, axis=1).max() < 1e-9 and ring(E).contains(on_branch).all() and reach > 0.49):
+            return verdict(False)
+    second = psl.hausdorff(skeleton_of_ellipse(80), ELLIPSE_SKELETON)
+    return verdict(second < 0.01)
+
+
+@check("fig-5")
+def convergence_figure():
+    return reproduced("figure_5", 6)
