@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from .complexes import Skeleton, dual_complex, outward_normals
+from .errors import InputError
 from .graphs import Tessellation, delaunay
 from .segments import clip_exactly, locate, locate_exactly, overlapping_pairs, point_segment_distance
 from .shapes import Shape
@@ -24,6 +25,10 @@ class VoronoiInShape:
         self.side = side
         self.segments = shape.segments
         self.tessellation = E if isinstance(E, Tessellation) else delaunay(shape.points if E is None else E)
+        if self.tessellation.dimension != 2:
+            raise InputError(
+                f"E is in {self.tessellation.dimension}D and the shape in 2D; pass an (n, 2) array."
+            )
         self.error = _circumcenter_error(self.tessellation)
         self.inside = self._vertices_inside()
         low, high = shape.points.min(axis=0), shape.points.max(axis=0)

@@ -9,7 +9,7 @@ import numpy as np
 from .errors import InputError, TessellationError
 from .graphs import Tessellation, delaunay, facet_rows, gabriel_mask
 from .segments import point_segment_distance
-from .shapes import Shape
+from .shapes import Shape, check_shape
 
 _GRAPHS = ("delaunay", "gabriel")
 
@@ -38,6 +38,7 @@ def missing_facets(
     >>> missing_facets(pair).tolist(), missing_facets(conform(pair)).tolist()
     ([0], [])
     """
+    check_shape(shape)
     _check_name(of)
     tessellation = tessellation or delaunay(shape.points)
     rows = facet_rows(tessellation, shape.facets)
@@ -47,7 +48,7 @@ def missing_facets(
     return np.flatnonzero(missing)
 
 
-def conform(shape: Shape, to: str = "gabriel") -> Shape:
+def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shape:
     """Add boundary points until every facet is in the strict Gabriel graph, or in the Delaunay tessellation.
 
     Parameters
@@ -55,6 +56,8 @@ def conform(shape: Shape, to: str = "gabriel") -> Shape:
     shape : Shape
     to : "gabriel" or "delaunay"
         "gabriel" makes Theorems 1 and 2 apply, "delaunay" makes Sk0 defined.
+    limit : int, optional
+        Give up beyond this many vertices; by default 10,000 and ten times as many as there are.
 
     Returns
     -------
@@ -64,7 +67,8 @@ def conform(shape: Shape, to: str = "gabriel") -> Shape:
     Raises
     ------
     TessellationError
-        If floats are too coarse to halve a segment further.
+        If more than ``limit`` vertices are needed, or if floats are too coarse to halve a segment further. It
+        takes a needle: an angle of 1e-3 radians needs 500 vertices, one of 1e-4 needs 7,000.
 
     Notes
     -----
@@ -83,9 +87,11 @@ def conform(shape: Shape, to: str = "gabriel") -> Shape:
     >>> len(missing_facets(acute, of="gabriel")), len(missing_facets(conform(acute), of="gabriel"))
     (1, 0)
     """
+    check_shape(shape)
     _check_name(to)
     points, facets = list(map(tuple, shape.points.tolist())), list(map(tuple, shape.facets.tolist()))
     acute = _acute_corners(shape)
+    limit = 10_000 + 10 * len(points) if limit is None else limit
     while True:
         array = np.array(points)
         tessellation = delaunay(array)
@@ -105,6 +111,13 @@ def conform(shape: Shape, to: str = "gabriel") -> Shape:
             if k not in cuts and not corners & set(facets[k]):
                 cuts[k] = array[current[k]].mean(axis=0)[None]
         _insert(points, facets, cuts)
+        if len(points) > limit:
+            k = np.flatnonzero(missing)[0]
+            where = ", ".join(f"{x:g}" for x in array[current[k]].mean(axis=0))
+            raise TessellationError(
+                f"more than {limit} vertices are needed, and the boundary near ({where}) is still not in the "
+                f"{to} graph: the shape is very thin there. Widen it, or raise the limit."
+            )
     return Shape(array, current) if len(points) > len(shape.points) else shape
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from .errors import ContourContainmentError, InputError
 from .graphs import Tessellation, delaunay, facet_rows, gabriel_mask
 from .predicates import orientation
-from .shapes import Shape
+from .shapes import Shape, check_shape
 from .topology import components
 
 
@@ -167,6 +167,7 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
     Traceback (most recent call last):
     polyskel_lite.errors.ContourContainmentError: 1 of 6 facets (first: 0, vertices 0-1 near (5, 0)) ...
     """
+    check_shape(shape)
     tessellation = delaunay(shape.points)
     rows = facet_rows(tessellation, shape.facets)
     missing = np.flatnonzero(rows < 0)

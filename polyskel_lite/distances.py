@@ -70,6 +70,9 @@ def hausdorff(A, B, step: float | None = None) -> float:
 
 def _sets(A, B, step):
     parts = [_parts(A, "A"), _parts(B, "B")]
+    dimensions = [points.shape[1] for points, _ in parts]
+    if dimensions[0] != dimensions[1]:
+        raise InputError(f"A is in {dimensions[0]}D and B in {dimensions[1]}D; pass sets of one space.")
     if step is None:
         step = max(float(np.ptp(points, axis=0).max()) for points, _ in parts) / 1000
     elif not step > 0:

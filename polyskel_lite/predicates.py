@@ -108,7 +108,8 @@ def _signs(differences: np.ndarray, polynomial, bound: float, exact_rows) -> np.
 
 def _differences(base: np.ndarray, others: np.ndarray):
     """Differences scaled to size one (by a power of two, exactly) and the same as exact integers."""
-    differences = others - base[:, None, :]
+    with np.errstate(over="ignore"):
+        differences = others - base[:, None, :]
     largest = np.abs(differences).max(initial=0.0)
     if not np.isfinite(largest):
         raise InputError("coordinates differ by more than the largest float; divide all of them by 2**60.")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from os import PathLike
 
 import numpy as np
@@ -32,6 +33,21 @@ def check_distinct(points: np.ndarray, name: str = "points") -> None:
         i, j = pairs[np.lexsort(pairs.T[::-1])[0]]
         where = ", ".join(f"{x:g}" for x in points[i])
         raise DuplicatePointError(f"{name} {i} and {j} are both at ({where}); keep one of them.")
+
+
+def check_shape(shape) -> None:
+    """Raise `InputError` if ``shape`` is no `Shape`.
+
+    Examples
+    --------
+    >>> check_shape([(0, 0), (1, 0), (0, 1)])
+    Traceback (most recent call last):
+    polyskel_lite.errors.InputError: shape is a list; pass a Shape, for example Shape.from_rings([points]).
+    """
+    if not isinstance(shape, Shape):
+        raise InputError(
+            f"shape is a {type(shape).__name__}; pass a Shape, for example Shape.from_rings([points])."
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +145,8 @@ class Shape:
         >>> frame.betti(), round(frame.area(), 12)
         ((1, 1), 8.0)
         """
-        if not len(rings):
-            raise InputError("rings is empty; pass at least one ring of three vertices.")
+        if not np.iterable(rings) or not len(rings):
+            raise InputError("rings is empty or no list; pass at least one ring of three vertices.")
         cleaned = []
         for k, ring in enumerate(rings):
             ring = as_points(ring, name=f"ring {k}", dimensions=(2,))
@@ -282,6 +298,10 @@ class Shape:
     def _sample_rings(self, n: int, start: float) -> list[np.ndarray]:
         closed = [self.points[np.append(ring, ring[0])] for ring in self.rings()]
         along = [np.concatenate([[0], np.cumsum(np.hypot(*np.diff(c, axis=0).T))]) for c in closed]
+        if not isinstance(n, Integral):
+            raise InputError(f"n is {n!r}; pass a whole number of samples.")
+        if not np.isfinite(start):
+            raise InputError(f"start is {start!r}; pass a share of one step, such as 0.5.")
         if n < 3 * len(closed):
             raise InputError(f"n = {n} samples for {len(closed)} rings; every ring needs at least three.")
         lengths = np.array([s[-1] for s in along])
@@ -317,7 +337,10 @@ class Shape:
         >>> round(square.covering_radius(), 6)
         1.0
         """
-        tree = cKDTree(self.points if E is None else as_points(E, name="E", dimensions=(2,)))
+        E = self.points if E is None else as_points(E, name="E", dimensions=(2,))
+        if not len(E):
+            raise InputError("E is empty; pass at least one sample.")
+        tree = cKDTree(E)
         a, b = self.segments[:, 0], self.segments[:, 1]
         best = float(max(tree.query(self.points)[0].max(), 0.0))
         while len(a):

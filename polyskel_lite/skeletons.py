@@ -6,7 +6,7 @@ from ._inside import VoronoiInShape
 from .complexes import Skeleton, dual_complex
 from .delaunay_shapes import DelaunayShape, delaunay_shape
 from .errors import InputError
-from .shapes import Shape
+from .shapes import Shape, check_shape
 
 _SIDES = {"inner": 1, "outer": -1}
 
@@ -45,7 +45,7 @@ def sk0(P: DelaunayShape | Shape, side: str = "inner") -> Skeleton:
     True
     """
     _side(side)
-    if isinstance(P, Shape):
+    if not isinstance(P, DelaunayShape):
         P = delaunay_shape(P)
     keep = P.inner if side == "inner" else ~P.inner
     return dual_complex(P.tessellation, keep, cut=P.boundary_rows(), rays=side == "outer")
@@ -149,8 +149,7 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
 
 
 def _voronoi(shape: Shape, E, side: str) -> VoronoiInShape:
-    if not isinstance(shape, Shape):
-        raise InputError(f"shape is a {type(shape).__name__}; pass a Shape (X), and the samples as E.")
+    check_shape(shape)
     return VoronoiInShape(shape, E, _side(side))
 
 
