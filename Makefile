@@ -18,8 +18,8 @@ $(VENV)/.installed: requirements.lock
 	       "Name another one, for example: make PYTHON=python3.12 $(or $(MAKECMDGOALS),book)"; exit 1; }
 	@echo "Installing the packages of requirements.lock into $(VENV) (once, a minute or two) ..."
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --require-hashes -r requirements.lock
-	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --no-deps --no-build-isolation -e .
+	@$(BIN)/python -m pip install --disable-pip-version-check -qq --require-hashes -r requirements.lock
+	@$(BIN)/python -m pip install --disable-pip-version-check -qq --no-deps --no-build-isolation -e .
 	@touch $@
 
 book: $(VENV)/.installed  ## build the HTML book from book.toml and notebooks/
