@@ -42,7 +42,7 @@ unit: $(VENV)/.installed  ## unit and property tests, doctests
 # addopts is emptied because doctest has nothing to find in a notebook. A chapter is one process: --dist loadfile.
 chapters: $(VENV)/.installed  ## run every notebook and compare with what is stored
 	@echo "Every chapter from top to bottom, compared with its stored outputs ..."
-	@$(BIN)/python -m pytest -o addopts= -n $(JOBS) --dist loadfile --nbval --nbval-current-env \
+	@env -u MPLBACKEND $(BIN)/python -m pytest -o addopts= -n $(JOBS) --dist loadfile --nbval --nbval-current-env \
 	  --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 600 notebooks
 
 lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
@@ -53,7 +53,7 @@ figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to fig
 	@$(BIN)/python -m polyskel_lite.figures figures/
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs
-	@$(BIN)/python tools/run_notebooks.py
+	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py
 
 lock: $(VENV)/.installed  ## maintainers: resolve pyproject.toml anew into requirements.lock (needs uv)
 	@uv pip compile pyproject.toml --extra lab --extra book --extra test --universal --python-version 3.11 \
