@@ -1,0 +1,140 @@
+"""The claims register: every verdict recomputed, every pointer followed."""
+
+import ast
+import json
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import pytest
+from claims import CHECKS, VERDICTS
+
+import polyskel_lite as psl
+
+ROOT = Path(__file__).resolve().parent.parent
+CLAIMS = tomllib.loads((ROOT / "notebooks" / "claims.toml").read_text(encoding="utf-8"))["claim"]
+FIELDS = (
+    "id",
+    "section",
+    "place",
+    "statement",
+    "verdict",
+    "reading",
+    "tolerance",
+    "why",
+    "notebook",
+    "cell",
+    "test",
+)
+IDS = [claim.get("id", "?") for claim in CLAIMS]
+each_claim = pytest.mark.parametrize("claim", CLAIMS, ids=IDS)
+
+
+@each_claim
+def test_verdict(claim):
+    assert CHECKS[claim["id"]]() == claim["verdict"]
+
+
+@each_claim
+def test_entry_is_complete(claim):
+    needed = {*FIELDS, *(["condition"] if claim["verdict"] == "holds under" else [])}
+    assert set(claim) == needed
+    assert all(isinstance(value, str) and value.strip() for value in claim.values())
+    assert claim["verdict"] in VERDICTS
+
+
+def test_every_claim_has_a_check_and_every_check_a_claim():
+    assert len(IDS) == len(set(IDS))
+    assert set(IDS) == set(CHECKS)
+
+
+@cache
+def test_names(path: Path) -> frozenset[str]:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return frozenset(node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+
+
+test_names.__test__ = False
+
+
+@each_claim
+def test_pointed_test_exists(claim):
+    path, name = claim["test"].split("::")
+    function, _, parameter = name.partition("[")
+    assert function.startswith("test_")
+    assert function in test_names(ROOT / path)
+    if function == "test_verdict":
+        assert parameter == claim["id"] + "]"
+
+
+@cache
+def code_cells(path: Path) -> list[dict]:
+    notebook = json.loads(path.read_text(encoding="utf-8"))
+    return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+
+
+@each_claim
+def test_pointed_cell_exists_and_was_run(claim):
+    path = ROOT / claim["notebook"]
+    assert path.exists(), f"{claim['notebook']} is not written yet"
+    cells = [cell for cell in code_cells(path) if claim["cell"] in cell["metadata"].get("tags", [])]
+    assert cells, f"no code cell of {claim['notebook']} has the tag {claim['cell']}"
+    for cell in cells:
+        assert cell["execution_count"], "the cell was not run"
+    # Of several cells with one tag, one shows or asserts it.
+    assert any(cell["outputs"] or "assert " in "".join(cell["source"]) for cell in cells)
+
+
+def test_tags_of_chapters_are_claims():
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        for cell in code_cells(path):
+            tags = [tag for tag in cell["metadata"].get("tags", []) if tag.startswith("claim:")]
+            assert {tag.removeprefix("claim:") for tag in tags} <= set(IDS), path.name
+
+
+def test_page_lists_every_claim():
+    shown = [
+        "".join(output["data"]["text/markdown"])
+        for cell in code_cells(ROOT / "notebooks" / "claims.ipynb")
+        for output in cell["outputs"]
+        if "text/markdown" in output.get("data", {})
+    ]
+    page = "\n".join(shown)
+    missing = [claim["id"] for claim in CLAIMS if f"`{claim['id']}`" not in page]
+    assert not missing
+    assert all(claim["statement"] in page for claim in CLAIMS)
+
+
+# What a check is worth: with a wrong library, the verdict changes.
+
+
+def broken(claim: str) -> bool:
+    verdict = next(entry["verdict"] for entry in CLAIMS if entry["id"] == claim)
+    try:
+        return CHECKS[claim]() != verdict
+    except (AssertionError, psl.PolyskelError, IndexError):
+        return True
+
+
+@pytest.mark.parametrize(
+    ("claim", "name", "wrong"),
+    [
+        ("def-gabriel", "gabriel", lambda points, closed=True: psl.delaunay(points).facets()),
+        ("def-sk2", "sk2", lambda shape, E=None, side="inner": psl.sk1(shape, E, side)),
+        ("def-sk0", "sk0", lambda shape, side="inner": psl.sk1(shape.to_shape())),
+        ("inclusions", "sk3", lambda shape, E=None, side="inner": psl.sk1(shape, E, side)),
+        (
+            "sk0-homotopy",
+            "sk0",
+            lambda shape, side="inner": psl.voronoi(psl.delaunay([(0, 0), (1, 0), (0, 1)])),
+        ),
+        ("theorem-2-open-ball", "sk2", lambda shape, E=None, side="inner": psl.sk0(shape, side)),
+        ("gabriel-refinement", "conform", lambda shape, to="gabriel": shape),
+        ("theorem-2-3d", "gabriel", lambda points, closed=True: psl.delaunay(points).facets()[:4]),
+        ("complexity-3d-8n", "delaunay", lambda points: type("T", (), {"simplices": points})),
+    ],
+)
+def test_a_wrong_library_is_noticed(claim, name, wrong, monkeypatch):
+    assert not broken(claim)
+    monkeypatch.setattr(psl, name, wrong)
+    assert broken(claim)
