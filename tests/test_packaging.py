@@ -77,6 +77,15 @@ def test_version_and_licences_agree():
     assert (ROOT / "LICENSE-TEXT").exists()
 
 
+def test_example_in_the_readme_runs():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (example,) = re.findall(r"```python\n(.*?)```", readme, re.S)
+    names = {}
+    exec(example, names)
+    assert names["skeleton"].betti() == names["shape"].betti()
+    assert names["graph"].number_of_nodes() == len(names["skeleton"].vertices)
+
+
 # Imports every module, refusing what is neither one of the three packages nor needed by them.
 IMPORT_ALL = """
 import importlib.abc, importlib.metadata, pkgutil, re, sys
