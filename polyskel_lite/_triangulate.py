@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import Delaunay, QhullError
 
+from ._cocircular import with_segments
 from ._incremental import incremental_delaunay
 from .errors import TessellationError
 from .predicates import in_ball, orientation
 
 
-def triangulate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of distinct points; exact.
+
+    In 2D, ``facets`` are segments to prefer among the diagonals of cocircular samples.
 
     Raises
     ------
@@ -38,6 +41,8 @@ def triangulate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             continue
         reason = problem(points, simplices, neighbors)
         if not reason:
+            if facets is not None and dimension == 2:
+                simplices, neighbors = with_segments(points, simplices, neighbors, facets)
             return _canonical(points, simplices, neighbors)
     if _flat(points):
         where = "line" if dimension == 2 else "plane"

@@ -232,7 +232,7 @@ class Skeleton:
         from .graphs import Tessellation
 
         try:
-            with np.load(path, allow_pickle=False) as file:
+            with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
                 data = dict(file)
             arrays = {name: data[name] for name in _ARRAYS}
             polygons = np.split(data["polygon_corners"], np.cumsum(data["polygon_sizes"])[:-1])

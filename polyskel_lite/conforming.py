@@ -40,7 +40,7 @@ def missing_facets(
     """
     check_shape(shape)
     _check_name(of)
-    tessellation = tessellation or delaunay(shape.points)
+    tessellation = tessellation or delaunay(shape.points, shape.facets)
     rows = facet_rows(tessellation, shape.facets)
     missing = rows < 0
     if of == "gabriel":
@@ -94,8 +94,8 @@ def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shap
     limit = 10_000 + 10 * len(points) if limit is None else limit
     while True:
         array = np.array(points)
-        tessellation = delaunay(array)
         current = np.array(facets)
+        tessellation = delaunay(array, current)
         rows = facet_rows(tessellation, current)
         missing = rows < 0
         if to == "gabriel":

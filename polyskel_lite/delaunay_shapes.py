@@ -168,7 +168,7 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
     polyskel_lite.errors.ContourContainmentError: 1 of 6 facets (first: 0, vertices 0-1 near (5, 0)) ...
     """
     check_shape(shape)
-    tessellation = delaunay(shape.points)
+    tessellation = delaunay(shape.points, shape.facets)
     rows = facet_rows(tessellation, shape.facets)
     missing = np.flatnonzero(rows < 0)
     if len(missing):

@@ -10,8 +10,9 @@ import numpy as np
 
 from ._triangulate import triangulate
 from .complexes import Skeleton, dual_complex
-from .predicates import as_integers, as_points, in_gabriel_ball
+from .predicates import as_integers, as_points, in_ball, in_gabriel_ball
 from .shapes import check_distinct
+from .topology import components
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,13 +172,16 @@ def _exact_offset(simplex):
         return np.full(simplex.shape[1], np.inf)
 
 
-def delaunay(points) -> Tessellation:
+def delaunay(points, facets=None) -> Tessellation:
     """Delaunay tessellation of points, checked exactly (section 2.2).
 
     Parameters
     ----------
     points : (n, N) array-like, N = 2 or 3
         All different, not all in one line or plane; any unit, any distance from the origin.
+    facets : (m, 2) array-like of int, optional
+        Segments to prefer among the diagonals of cocircular samples (2D): a boundary that is in
+        one of the possible tessellations is then in this one.
 
     Returns
     -------
@@ -211,7 +215,7 @@ def delaunay(points) -> Tessellation:
     points = as_points(points)
     check_distinct(points)
     points.setflags(write=False)
-    return Tessellation(points, *triangulate(points))
+    return Tessellation(points, *triangulate(points, None if facets is None else np.asarray(facets)))
 
 
 def facet_rows(tessellation: Tessellation, facets: np.ndarray) -> np.ndarray:
@@ -256,8 +260,9 @@ def gabriel_mask(
 ) -> np.ndarray:
     """Which rows of ``tessellation.facet_table`` are Gabriel facets, exactly.
 
-    Among the samples on one side of a facet, the Delaunay apex is the last to leave the growing
-    balls through the facet, so testing the two apexes tests all samples.
+    Among the samples strictly on one side of a facet, the Delaunay apex is the last to leave the
+    growing balls through the facet, so testing the two apexes tests them all. A sample in the plane of
+    the facet can only be on its circle; that takes four cocircular samples in space.
 
     Examples
     --------
@@ -273,7 +278,30 @@ def gabriel_mask(
         there = np.flatnonzero(apexes[:, side] >= 0)
         corners = tessellation.points[facets[there]]
         keep[there] &= in_gabriel_ball(corners, tessellation.points[apexes[there, side]]) < limit
+    if closed and tessellation.dimension == 3:
+        sides = tessellation.facet_table[1] if rows is None else tessellation.facet_table[1][rows]
+        keep[keep] = ~_cocircular(tessellation, facets[keep], sides[keep, 0])
     return keep
+
+
+def _cocircular(tessellation: Tessellation, facets: np.ndarray, behind: np.ndarray) -> np.ndarray:
+    """Whether a fourth sample is on the circle through each triangle; ``behind`` is a simplex of each."""
+    (_, sides), points = tessellation.facet_table, tessellation.points
+    inner = sides[:, 1] >= 0
+    first, apex = sides[inner, 0], tessellation.apexes()[inner, 1]
+    tie = in_ball(points[tessellation.simplices[first]], points[apex]) == 0
+    # Such a sample is on the sphere of the simplex behind: look among simplices that share a sphere.
+    _, label = components(len(tessellation.simplices), sides[inner][tie])
+    shared = np.bincount(label)[label] > 1
+    found = np.zeros(len(facets), dtype=bool)
+    members: dict[int, np.ndarray] = {}
+    for sphere in np.unique(label[behind[shared[behind]]]).tolist():
+        members[sphere] = np.unique(tessellation.simplices[label == sphere])
+    for k in np.flatnonzero(shared[behind]).tolist():
+        others = np.setdiff1d(members[int(label[behind[k]])], facets[k])
+        corners = np.broadcast_to(points[facets[k]], (len(others), 3, 3))
+        found[k] = (in_gabriel_ball(corners, points[others]) == 0).any()
+    return found
 
 
 def gabriel(points_or_tessellation, closed: bool = True) -> np.ndarray:

@@ -1,0 +1,132 @@
+"""Refinement and Delaunay shapes."""
+
+import numpy as np
+import pytest
+from oracle import grid_region, rational, strictly_gabriel
+
+import polyskel_lite as psl
+
+
+def star(rng, n, spike):
+    """A star-shaped polygon with angles as sharp as they come."""
+    angle = np.sort(rng.choice(np.arange(360), size=n, replace=False)) * np.pi / 180
+    radius = np.where(rng.random(n) < 0.5, 10.0, 10.0 * spike)
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
+
+
+@pytest.mark.parametrize("to", ["delaunay", "gabriel"])
+@pytest.mark.parametrize("seed", range(20))
+def test_refinement_ends_and_keeps_the_vertices(seed, to):
+    rng = np.random.default_rng(seed)
+    try:
+        shape = psl.Shape.from_rings([star(rng, 14, 0.1)])
+    except psl.ShapeError:
+        return  # the center is outside the ring: not a star, and perhaps not simple
+    fine = psl.conform(shape, to=to)
+    assert (fine.points[: len(shape.points)] == shape.points).all()
+    assert not len(psl.missing_facets(fine, of=to))
+    assert fine.betti() == shape.betti()
+    # Inserted points are rounded: on their sides up to the last bits of coordinates of size ten.
+    assert shape.boundary_distance(fine.points).max() < 1e-14
+    assert fine.length() == pytest.approx(shape.length(), rel=1e-12)
+
+
+def test_strict_gabriel_by_definition_after_refinement():
+    for seed in range(10):
+        shape = psl.conform(psl.Shape.from_rings(grid_region(np.random.default_rng(seed), size=4)))
+        samples = rational(shape.points)
+        assert all(strictly_gabriel(samples[a], samples[b], samples) for a, b in shape.facets.tolist())
+
+
+def test_the_30_degree_corner_on_which_halving_loops():
+    shape = psl.Shape.from_rings([[(0, 0), (13, 0), (10 * np.cos(np.pi / 6), 5)]])
+    assert len(psl.conform(shape).points) < 20
+
+
+def halving_alone(shape, rounds):
+    """Midpoint splitting without the cut at acute corners; the number of missing facets after each round."""
+    counts = []
+    for _ in range(rounds):
+        missing = psl.missing_facets(shape, of="gabriel")
+        counts.append(len(missing))
+        points, facets = shape.points.tolist(), []
+        for k, (a, b) in enumerate(shape.facets.tolist()):
+            if k in missing:
+                points.append(((shape.points[a] + shape.points[b]) / 2).tolist())
+                facets += [(a, len(points) - 1), (len(points) - 1, b)]
+            else:
+                facets.append((a, b))
+        shape = psl.Shape(points, facets)
+    return counts
+
+
+def test_halving_alone_does_not_end_there():
+    shape = psl.Shape.from_rings([[(0, 0), (13, 0), (10 * np.cos(np.pi / 6), 5)]])
+    assert min(halving_alone(shape, 25)) > 0
+
+
+def test_a_shape_that_conforms_is_returned_as_it_is():
+    shape = psl.datasets.load("horse")
+    assert psl.conform(shape) is shape
+
+
+def test_needles_are_given_up_with_a_sentence():
+    needle = psl.Shape.from_rings([[(0, 0), (1, 0), (1, 1e-3)]])
+    with pytest.raises(psl.TessellationError, match="very thin there"):
+        psl.conform(needle, limit=100)
+    assert len(psl.conform(needle).points) < 600
+
+
+def test_missing_facets_are_named():
+    pair = psl.Shape.from_rings([[(0, 0), (10, 0), (5, 1)], [(5, -1), (4, -3), (6, -3)]])
+    with pytest.raises(psl.ContourContainmentError, match="vertices 0-1") as caught:
+        psl.delaunay_shape(pair)
+    assert caught.value.missing.tolist() == [0]
+    assert psl.delaunay_shape(psl.conform(pair, to="delaunay")).betti() == (2, 0)
+
+
+@pytest.mark.parametrize(
+    "call", [psl.conform, psl.delaunay_shape, psl.missing_facets, psl.sk0, psl.sk1, psl.sk2, psl.sk3]
+)
+def test_arrays_are_no_shapes(call):
+    with pytest.raises(psl.InputError, match="pass a Shape"):
+        call(np.zeros((4, 2)))
+
+
+def test_unknown_names():
+    shape = psl.datasets.load("gear")
+    with pytest.raises(psl.InputError, match="choose one of delaunay, gabriel"):
+        psl.conform(shape, to="voronoi")
+    with pytest.raises(psl.InputError, match="'inner' or 'outer'"):
+        psl.sk0(shape, side="left")
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_labels_agree_with_an_inside_test(seed):
+    shape = psl.conform(psl.Shape.from_rings(grid_region(np.random.default_rng(seed), size=4)), to="delaunay")
+    P = psl.delaunay_shape(shape)
+    centroids = P.tessellation.points[P.tessellation.simplices].mean(axis=1)
+    assert (P.inner == (shape.locate(centroids) > 0)).all()
+    assert P.betti() == shape.betti()
+    assert P.to_shape().area() == pytest.approx(shape.area())
+    edges = {tuple(edge) for edge in shape.facets.tolist()}
+    assert edges == {tuple(edge) for edge in P.boundary().tolist()}
+
+
+def test_solid_of_tetrahedra():
+    """A shell of tetrahedra around an empty one has a cavity; Sk0 does too."""
+    corner = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], dtype=float)
+    t = psl.delaunay(np.concatenate([corner, -6 * corner]))
+    inner = np.array([set(s) != {0, 1, 2, 3} for s in t.simplices.tolist()])
+    assert (~inner).sum() == 1
+    P = psl.DelaunayShape(t, inner)
+    assert P.betti() == (1, 0, 1)
+    assert psl.sk0(P).betti() == (1, 0, 1)
+    # Filled, the four samples are inside the region: Sk0, a surface, closes around each of them.
+    assert psl.sk0(psl.DelaunayShape(t, np.ones_like(inner))).betti() == (1, 0, 4)
+
+
+def test_wrong_labels():
+    t = psl.delaunay([(0, 0), (1, 0), (0, 1)])
+    with pytest.raises(psl.InputError, match="one bool for each of the 1 simplices"):
+        psl.DelaunayShape(t, np.array([1, 0]))

@@ -1,0 +1,174 @@
+"""Delaunay, Voronoi and Gabriel against their definitions."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull, QhullError
+
+import polyskel_lite as psl
+from polyskel_lite._incremental import incremental_delaunay
+from polyskel_lite._triangulate import problem
+from polyskel_lite.predicates import in_ball, in_gabriel_ball
+
+
+def distinct(n, least, most):
+    return st.lists(st.tuples(*[st.integers(0, 4)] * n), min_size=least, max_size=most, unique=True).map(
+        lambda points: np.array(points, dtype=float)
+    )
+
+
+@pytest.mark.parametrize("n", [2, 3])
+@given(data=st.data())
+def test_every_open_delaunay_ball_is_empty(n, data):
+    """On lattice points, where cocircular and cospherical sets are the rule."""
+    points = data.draw(distinct(n, n + 2, 14))
+    try:
+        hull = ConvexHull(points)
+    except QhullError:
+        with pytest.raises(psl.TessellationError, match="are in one"):
+            psl.delaunay(points)
+        return
+    t = psl.delaunay(points)
+    for simplex in t.simplices:
+        cells = np.broadcast_to(points[simplex], (len(points), n + 1, n))
+        assert in_ball(cells, points).max() <= 0
+    corners = points[t.simplices]
+    volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / (2 if n == 2 else 6)
+    assert volume == pytest.approx(hull.volume)
+
+
+@pytest.mark.parametrize("n", [2, 3])
+@given(data=st.data())
+def test_the_exact_fallback_alone(n, data):
+    points = data.draw(distinct(n, n + 2, 14))
+    simplices, neighbors = incremental_delaunay(points)
+    if len(simplices):
+        assert problem(points, simplices, neighbors) == ""
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_nearly_cospherical_points(seed):
+    """Points on a sphere, off it by rounding: Qhull alone does not pass the check."""
+    points = np.random.default_rng(seed).normal(size=(150, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    t = psl.delaunay(points)
+    assert problem(t.points, t.simplices, t.neighbors) == ""
+    assert np.unique(t.simplices).size == 150
+
+
+@pytest.mark.parametrize("shift", [0, 1e8, 1e15])
+def test_far_grid_keeps_every_point(shift):
+    grid = np.stack(np.meshgrid(np.arange(5.0), np.arange(5.0)), axis=-1).reshape(-1, 2) + shift
+    t = psl.delaunay(grid)
+    assert np.unique(t.simplices).size == 25
+    assert len(t.simplices) == 32
+
+
+def test_the_check_finds_what_is_wrong():
+    points = np.array([(0, 0), (4, 0), (2, 1), (2, -1), (2, 3)], dtype=float)
+    t = psl.delaunay(points)
+    assert problem(points, t.simplices, t.neighbors) == ""
+    assert "used" in problem(points, t.simplices[:1], np.full((1, 3), -1))
+    wrong = np.array([[0, 1, 2], [1, 0, 3], [1, 4, 2], [0, 2, 4]])
+    across = np.array([[2, 3, 1], [-1, -1, 0], [3, 0, -1], [2, -1, 0]])
+    assert problem(points, wrong, across) == "a sample is inside a Delaunay ball"
+    turned = t.simplices[:, [1, 0, 2]]
+    assert problem(points, turned, t.neighbors[:, [1, 0, 2]]) == "a simplex is flat"
+
+
+@pytest.mark.parametrize(
+    ("points", "error", "message"),
+    [
+        ([(0, 0), (1, 1)], psl.TessellationError, "at least 3"),
+        ([(0, 0), (1, 1), (2, 2), (3, 3)], psl.TessellationError, "in one line"),
+        ([(0, 0, 0), (1, 1, 0), (2, 2, 0), (0, 1, 0), (5, 0, 0)], psl.TessellationError, "in one plane"),
+        ([(0, 0), (1, 1), (2, 0), (1, 1)], psl.DuplicatePointError, "points 1 and 3"),
+    ],
+)
+def test_refused_point_sets(points, error, message):
+    with pytest.raises(error, match=message):
+        psl.delaunay(points)
+
+
+def test_the_order_does_not_depend_on_qhull():
+    points = np.random.default_rng(0).random((40, 2))
+    simplices = psl.delaunay(points).simplices.tolist()
+    assert simplices == sorted(simplices)
+    assert all(simplex[0] == min(simplex) for simplex in simplices)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize("n", [2, 3])
+@given(data=st.data())
+def test_gabriel_by_definition(n, closed, data):
+    """All Delaunay facets, by looking at every other sample; the library looks at two."""
+    points = data.draw(distinct(n, n + 2, 11))
+    try:
+        t = psl.delaunay(points)
+    except psl.TessellationError:
+        return
+    limit = 0 if closed else 1
+    expected = set()
+    for facet in t.facets().tolist():
+        others = np.delete(points, facet, axis=0)
+        corners = np.broadcast_to(points[facet], (len(others), n, n))
+        if (in_gabriel_ball(corners, others) < limit).all():
+            expected.add(tuple(facet))
+    assert set(map(tuple, psl.gabriel(t, closed).tolist())) == expected
+
+
+@given(distinct(2, 4, 11))
+def test_strict_gabriel_edges_are_always_delaunay(points):
+    """Nothing is missed by looking at Delaunay facets only."""
+    try:
+        t = psl.delaunay(points)
+    except psl.TessellationError:
+        return
+    found = set(map(tuple, psl.gabriel(t).tolist()))
+    for p, q in combinations(range(len(points)), 2):
+        others = np.delete(points, [p, q], axis=0)
+        empty = (in_gabriel_ball(np.broadcast_to(points[[p, q]], (len(others), 2, 2)), others) < 0).all()
+        assert empty == ((p, q) in found)
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_voronoi_elements_are_equidistant(n):
+    points = np.random.default_rng(3).random((30, n))
+    graph = psl.voronoi(points)
+    d = np.sqrt(((graph.vertices[:, None] - points) ** 2).sum(axis=2))
+    nearest = np.sort(d, axis=1)
+    # Rounding of far circumcenters is relative to their distance.
+    assert np.allclose(nearest[:, : n + 1], graph.radii[:, None], rtol=1e-9)
+    for a, b in graph.edges:
+        shared = np.intersect1d(
+            graph.tessellation.simplices[graph.simplices[a]], graph.tessellation.simplices[graph.simplices[b]]
+        )
+        assert len(shared) == n
+    for polygon in graph.polygons:
+        simplices = graph.tessellation.simplices[graph.simplices[polygon]]
+        assert len(set.intersection(*map(set, simplices.tolist()))) == 2
+    hull = ConvexHull(points)
+    assert len(graph.rays) == len(hull.simplices)
+    assert np.allclose(np.linalg.norm(graph.rays, axis=1), 1)
+
+
+def test_rays_point_away_from_the_points():
+    points = np.random.default_rng(4).random((30, 2))
+    graph = psl.voronoi(points)
+    for start, ray in zip(graph.vertices[graph.ray_vertices], graph.rays, strict=True):
+        # Far along a ray, the nearest samples are the two ends of its hull edge, at one distance.
+        far = np.sort(np.sqrt(((start + 100 * ray - points) ** 2).sum(axis=1)))
+        assert far[0] == pytest.approx(far[1], rel=1e-9)
+
+
+def test_circumcenters_of_needles():
+    """A triangle of height 1e-17 has its centre at 1/(8 x its height); floats alone lose it."""
+    height = 2.0**-56
+    centers, radii = psl.graphs.circumballs(np.array([[(0.0, 0.0), (1.0, 0.0), (0.5, height)]]))
+    assert centers[0] == pytest.approx([0.5, height / 2 - 1 / (8 * height)], rel=1e-12)
+    assert radii[0] == pytest.approx(1 / (8 * height), rel=1e-12)
+    flat, _ = psl.graphs.circumballs(np.array([[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]]))
+    assert not np.isfinite(flat).any()
