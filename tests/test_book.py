@@ -14,7 +14,7 @@ NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 LONGEST_CELL = 25
 LARGEST_FILE = 1_500_000
 # A path of the machine that ran the notebook tells a reader nothing, and differs on the next machine.
-MACHINE_PATHS = re.compile(r"(?:/root/|/home/|/Users/|/tmp/|C:\\\\)")
+MACHINE_PATHS = re.compile(r"/(?:root|home|Users|tmp|work)/")
 
 
 def chapters_of_book() -> list[str]:
