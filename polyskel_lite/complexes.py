@@ -326,36 +326,6 @@ def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:
     return normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)) + 0.0
 
 
-def _dual_polygons(tessellation, number, cut) -> list[np.ndarray]:
-    """The cycles of kept tetrahedra around Delaunay edges, by rotation about each edge."""
-    simplices, neighbors = tessellation.simplices, tessellation.neighbors
-    crossing = np.zeros(neighbors.shape, dtype=bool) if cut is None else _local(tessellation, cut)
-    done, polygons = set(), []
-    for first in np.flatnonzero(number[:-1] >= 0).tolist():
-        for i in range(4):
-            for j in range(i):
-                edge = tuple(sorted((int(simplices[first, i]), int(simplices[first, j]))))
-                if edge in done:
-                    continue
-                # Leave through the facet opposite one of the two other vertices, enter the next tetrahedron.
-                leave = next(k for k in range(4) if k not in (i, j))
-                cycle, current = [], first
-                while True:
-                    cycle.append(current)
-                    following = int(neighbors[current, leave])
-                    if following < 0 or number[following] < 0 or crossing[current, leave]:
-                        break
-                    came = int(np.flatnonzero(neighbors[following] == current)[0])
-                    corners = simplices[following].tolist()
-                    leave = next(k for k in range(4) if k != came and corners[k] not in edge)
-                    current = following
-                    if current == first:
-                        done.add(edge)
-                        polygons.append(number[np.array(cycle)])
-                        break
-    return polygons
-
-
 def _local(tessellation, cut):
     """Rows of ``facet_table`` as a mask over (simplex, opposite vertex)."""
     sides = tessellation.facet_table[1][cut]
