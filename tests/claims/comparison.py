@@ -188,7 +188,7 @@ def second_theorem_with_the_printed_rule():
 
 @check("theorem-2-complement")
 def second_theorem_outside():
-    """With the rays of the unbounded cells the two sides agree; without them they seldom do."""
+    """With the rays of the unbounded cells the two always agree; without them mostly not."""
     regions = gabriel_regions()
     with_rays = all(theorem_2(shape, -1) for shape in regions)
     without = sum(theorem_2(shape, -1, rays=False) for shape in regions)
