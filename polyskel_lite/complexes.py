@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._polygons import Polygons, dual_polygons
 from .errors import InputError
 from .predicates import orientation
 from .topology import betti_numbers
@@ -39,7 +40,7 @@ class Skeleton:
         The Delaunay simplex whose dual each vertex is; -1 for the cut points of Sk3.
     edges : (e, 2) int array
         Pairs of vertices.
-    polygons : list of int arrays
+    polygons : sequence of int arrays
         Vertices in order around their Delaunay edge; empty in 2D.
     rays : (r, N) float array
         Unit directions of unbounded edges.
@@ -61,12 +62,13 @@ class Skeleton:
     radii: np.ndarray
     simplices: np.ndarray
     edges: np.ndarray
-    polygons: Sequence[np.ndarray] = field(default_factory=list)
+    polygons: Sequence[np.ndarray] = ()
     rays: np.ndarray | None = None
     ray_vertices: np.ndarray | None = None
     tessellation: Tessellation | None = None
 
     def __post_init__(self):
+        object.__setattr__(self, "polygons", Polygons.of(self.polygons))
         if self.rays is None:
             object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
             object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
@@ -201,12 +203,8 @@ class Skeleton:
         >>> Skeleton.load(path).vertices.tolist()
         [[1.0, 1.0]]
         """
-        sizes = np.array([len(p) for p in self.polygons], dtype=np.int64)
-        corners = np.concatenate(self.polygons) if len(self.polygons) else np.zeros(0, dtype=np.int64)
-        data = {name: getattr(self, name) for name in _ARRAYS} | {
-            "polygon_sizes": sizes,
-            "polygon_corners": corners,
-        }
+        data = {name: getattr(self, name) for name in _ARRAYS}
+        data |= {"polygon_sizes": self.polygons.sizes, "polygon_corners": self.polygons.corners}
         if self.tessellation is not None:
             data |= {f"tessellation_{name}": getattr(self.tessellation, name) for name in _TESSELLATION}
         with open(path, "wb") as file:
@@ -235,11 +233,9 @@ class Skeleton:
             with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
                 data = dict(file)
             arrays = {name: data[name] for name in _ARRAYS}
-            polygons = np.split(data["polygon_corners"], np.cumsum(data["polygon_sizes"])[:-1])
+            polygons = Polygons(data["polygon_corners"], data["polygon_sizes"])
         except (KeyError, EOFError, zipfile.BadZipFile, ValueError, AttributeError) as error:
             raise InputError(f"{path} is not a skeleton written by Skeleton.save ({error}).") from None
-        if not len(data["polygon_sizes"]):
-            polygons = []
         tessellation = None
         if "tessellation_points" in data:
             tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
@@ -283,9 +279,10 @@ def dual_complex(
         both &= ~cut
         open_side &= ~cut
     simplices = np.flatnonzero(keep)
-    polygons: list[np.ndarray] = []
+    polygons = Polygons()
     if tessellation.dimension == 3:
-        polygons = _dual_polygons(tessellation, number, cut)
+        crossed = None if cut is None else _local(tessellation, cut)
+        polygons = dual_polygons(tessellation.simplices, tessellation.neighbors, number, crossed)
     directions, origins = np.zeros((0, tessellation.dimension)), np.zeros(0, dtype=np.int64)
     if rays:
         directions = outward_normals(tessellation, np.flatnonzero(open_side))
