@@ -247,7 +247,6 @@ def _unrolled(covers: _Covers) -> tuple[np.ndarray, ...]:
     balls, first = np.unique(ball, return_index=True)
     origin = (start - error)[first][np.searchsorted(balls, ball)]
     turned = (start - origin) % _TURN
-    turned[first] = error[first]  # where the line begins; the modulus may have rounded it up to 2π
     end = turned + width
     over = np.flatnonzero(end + error > _TURN)  # these cover the beginning of the line as well
     index = np.concatenate([np.arange(len(ball)), over, first])

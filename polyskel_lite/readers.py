@@ -157,17 +157,16 @@ def from_mask(image, level: float = 0.5, smooth: float = 0.0) -> Shape:
         raise InputError(f"smooth is {smooth!r}; pass a width in pixels, 0 or more.")
     if values.max() < level:
         raise InputError(f"no pixel reaches the level {level:g}, the largest is {values.max():g}; lower it.")
-    values = _off_level(values, level)
-    margin = 1 + int(np.ceil(4 * smooth))
-    # Outside, the mirror of the largest value: what reaches the border ends with the border's pixels.
-    values = np.pad(values, margin, constant_values=2 * level - values.max())
+    # Outside, the mirror of the largest value: what reaches the border ends with the border's pixels,
+    # blurred or not.
+    values = np.pad(values, 1, constant_values=level - (values.max() - level or 1.0))
     if smooth:
-        values = _off_level(gaussian_filter(values, smooth, mode="nearest"), level)
-    if values.max() < level:
-        raise InputError(f"no pixel reaches the level {level:g} after smoothing by {smooth:g}; smooth less.")
-    rows = values.shape[0] - 2 * margin
-    corner = margin - 0.5
-    return Shape.from_rings([(ring - corner) * (1, -1) + (0, rows) for ring in _contours(values, level)])
+        values = gaussian_filter(values, smooth, mode="nearest")
+        if values.max() < level:
+            raise InputError(f"no pixel reaches the level {level:g} smoothed by {smooth:g}; smooth less.")
+    values = _off_level(values, level)
+    rows = values.shape[0] - 2
+    return Shape.from_rings([(ring - 0.5) * (1, -1) + (0, rows) for ring in _contours(values, level)])
 
 
 def _as_image(image) -> np.ndarray:
@@ -187,7 +186,7 @@ def _as_image(image) -> np.ndarray:
 def _off_level(values: np.ndarray, level: float) -> np.ndarray:
     """The values, with those at the level or very near it moved a little away from it."""
     above = values - level
-    least = _NUDGE * (np.abs(above).max() or 1.0)
+    least = _NUDGE * np.abs(above).max()
     return np.where(np.abs(above) < least, level + np.where(above >= 0, least, -least), values)
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 
 from polyskel_lite import InputError, Shape, conform, datasets
-from polyskel_lite.discs import boundary
+from polyskel_lite.discs import _wrapped, boundary
 from polyskel_lite.polyballs import Polyball
 
 
@@ -166,9 +166,10 @@ def test_touching_discs():
     assert len(covered.singular_points()) == 4
     assert covered.boundary_distance([(1, 0)])[0] == pytest.approx(0.5)
     assert len(Polyball([(0, 0), (0.5, 0)], [1, 0.5]).singular_points()) == 0  # touching from inside
-    turn = np.array([np.cos(0.3), np.sin(0.3)])
-    rounded = Polyball([0 * turn, 1.7 * turn], [1, 0.7])
-    assert rounded.singular_points() == pytest.approx(turn[None])
+    for angle in np.arange(20.0):
+        turn = np.array([np.cos(angle), np.sin(angle)])
+        rounded = Polyball([0.3 - 0.1 * turn, 0.3 + 1.3 * turn], [0.6, 0.8])
+        assert rounded.singular_points() == pytest.approx(0.3 + 0.5 * turn[None])
 
 
 def test_a_point_surrounded_by_three_circles_through_it_is_inside():
@@ -194,6 +195,40 @@ def test_very_unequal_discs():
     Y = Polyball([(0, 0), (1e6, 0), (1e6 + 1, 0), (-1e6, 0)], [1e6, 1e-3, 1e-4, 1e-3])
     assert Y.arcs().ball.tolist() == [0, 0, 1, 2, 3]
     assert len(Y.singular_points()) == 4
+
+
+def test_area_far_from_the_origin_loses_no_digits():
+    near, far = (Polyball([(x, x), (x + 1, x)], [1, 1]).area() for x in (0, 2**30))
+    assert far == pytest.approx(near, rel=1e-14)
+
+
+def test_a_real_gap_beside_a_badly_known_crossing_stays_open():
+    """Two nearly equal circles cross at (0, ±1), known to 1e-7; a third disc leaves 1e-4 free there."""
+    free = 1e-4
+    lean = np.array([np.cos(np.pi + free), np.sin(np.pi + free)])
+    # Its circle crosses the unit circle a quarter turn to both sides of `lean`.
+    Y = Polyball([(0, 0), (1e-9, 0), lean], [1, 1, 2**0.5])
+    arcs = Y.arcs()
+    own = arcs.ball == 0
+    assert (arcs.end - arcs.start)[own] == pytest.approx([free], rel=1e-2)
+    assert arcs.start[own] == pytest.approx([np.pi / 2], abs=1e-6)
+
+
+def test_noisy_circles_through_two_points_have_two_singular_points():
+    """Centres and radii with the errors of circumcentres of thin triangles."""
+    rng = np.random.default_rng(5)
+    height = np.linspace(-3, 2, 25)
+    centers = np.stack([height, 0 * height], axis=1)
+    radii = np.hypot(height, 1) * (1 + 1e-13 * rng.standard_normal(25))
+    found = Polyball(centers, radii).singular_points()
+    assert sorted(found[:, 1]) == pytest.approx([-1, 1])
+
+
+def test_angles_begin_at_minus_pi():
+    turned = _wrapped(np.array([np.nextafter(-np.pi, -9), -np.pi, np.pi, np.nextafter(3 * np.pi, 0), 7.0]))
+    assert (turned >= -np.pi).all()
+    assert (turned < np.pi).all()
+    assert turned[-1] == pytest.approx(7 - 2 * np.pi)
 
 
 # --- against the oracle
@@ -423,6 +458,7 @@ def test_arrays_are_copies_and_frozen():
     Y = Polyball(centers, [1])
     centers[0] = 5
     assert Y.centers.tolist() == [[0, 0]]
-    with pytest.raises(ValueError, match="read-only"):
-        Y.radii[0] = 2
+    for array in (Y.centers, Y.radii):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 2
     assert boundary(Y.centers, Y.radii).arcs.ball.tolist() == [0]

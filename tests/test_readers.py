@@ -151,7 +151,7 @@ def test_values_at_the_level_never_make_outlines_touch(image, level):
         ([[1.0, np.nan]], {}, r"image\[0, 1\] is nan"),
         ([[1.0]], {"level": np.inf}, "level is inf"),
         ([[1.0]], {"smooth": -1}, "smooth is -1"),
-        (np.pad([[1.0]], 5), {"smooth": 3}, "after smoothing by 3"),
+        (np.pad([[1.0]], 5), {"smooth": 3}, "smoothed by 3; smooth less"),
     ],
 )
 def test_bad_masks(image, options, message):
@@ -240,6 +240,11 @@ def test_bad_geojson(tmp_path, content, message):
     assert str(error.value).startswith("a.geojson: ")
 
 
+def test_geojson_with_a_byte_order_mark(tmp_path):
+    (tmp_path / "a.geojson").write_text(json.dumps(FRAME), encoding="utf-8-sig")
+    assert from_file(tmp_path / "a.geojson").area() == 15
+
+
 def test_bytes_that_are_no_text(tmp_path):
     (tmp_path / "a.geojson").write_bytes(b"\xff\xfe\xfa")
     with pytest.raises(InputError, match="not JSON"):
@@ -276,6 +281,8 @@ def test_svg_transforms_nest(tmp_path):
         # four cubic Bézier curves would be a circle to 3e-4 of the radius only; arcs are exact
         '<path d="M 9 8 A 2 2 0 0 1 5 8 A 2 2 0 0 1 9 8 Z"/>',
         '<ellipse rx="1" ry="4" transform="translate(7 8) rotate(30) scale(2 .5)"/>',
+        '<g transform="scale(.001)"><circle cx="7000" cy="8000" r="2000"/></g>',
+        '<g transform="scale(1000)"><circle cx=".007" cy=".008" r=".002"/></g>',
     ],
 )
 def test_svg_curves_within_tolerance(tmp_path, body, tolerance):
@@ -325,6 +332,11 @@ def test_svg_strokes_hidden_parts_and_definitions_are_left_out(tmp_path):
     assert read_svg(tmp_path, body).area() == 4
 
 
+def test_svg_vertices_that_repeat_are_dropped(tmp_path):
+    shape = read_svg(tmp_path, '<path d="M0 0 L2 0 L2 0 L2 2 L0 2 L0 0 Z"/>')
+    assert len(shape.points) == 4
+
+
 def test_svg_without_namespace(tmp_path):
     (tmp_path / "a.svg").write_text('<svg><rect width="2" height="2"/></svg>')
     assert from_file(tmp_path / "a.svg").area() == 4
@@ -343,6 +355,7 @@ def test_svg_without_namespace(tmp_path):
         ('<rect width="10mm" height="3"/>', "<rect> cannot be read"),
         ('<rect width="1" height="3" transform="turn(3)"/>', "<rect> cannot be read"),
         ('<path d="M0 0 L1 0 Z"/>', "no path in it encloses an area"),
+        ('<path d="M1 1 Q1 1 1 1 Z"/>', "all its paths are one point"),
         ('<circle r="0"/>', "cannot be read|one point|no closed path"),
         ("<g>", "not XML"),
     ],
@@ -386,6 +399,12 @@ def test_dark_part_of_an_opaque_picture(tmp_path):
         shape = read_picture(tmp_path, pixels)
         assert shape.area() == pytest.approx(BAR, abs=1e-9)
         assert shape.points.min(axis=0).tolist() == [1, 3]
+
+
+def test_deep_grey_counts_from_its_brightest_value(tmp_path):
+    """Sixteen bits, of which a camera used ten."""
+    pixels = np.where(INK > 0, 1000, 300).astype(np.uint16)
+    assert read_picture(tmp_path, pixels).betti() == (1, 0)
 
 
 def test_opaque_part_of_a_transparent_picture(tmp_path):
