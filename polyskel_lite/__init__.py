@@ -1,6 +1,7 @@
 """Continuous skeletons from the Voronoi graph of boundary samples (Attali & Montanvert, CVIU 1997)."""
 
 from . import datasets
+from .branches import branch_graph
 from .complexes import Skeleton
 from .conforming import conform, missing_facets
 from .delaunay_shapes import DelaunayShape, delaunay_shape
@@ -18,12 +19,14 @@ from .graphs import Tessellation, delaunay, gabriel, voronoi
 from .polyballs import Polyball
 from .reconstruction import reconstruct_curve
 from .shapes import Shape
+from .simplification import Hierarchy, hierarchy
 from .skeletons import sk0, sk1, sk2, sk3
 
 __all__ = [
     "ContourContainmentError",
     "DelaunayShape",
     "DuplicatePointError",
+    "Hierarchy",
     "InputError",
     "Polyball",
     "PolyskelError",
@@ -33,6 +36,7 @@ __all__ = [
     "Skeleton",
     "Tessellation",
     "TessellationError",
+    "branch_graph",
     "conform",
     "datasets",
     "delaunay",
@@ -40,6 +44,7 @@ __all__ = [
     "directed_hausdorff",
     "gabriel",
     "hausdorff",
+    "hierarchy",
     "missing_facets",
     "reconstruct_curve",
     "sk0",

@@ -1,0 +1,198 @@
+"""The one hot loop of section 4: remove hats and salients, smallest criterion first.
+
+`collapse` is plain Python on flat sequences. With numba installed (the extra ``fast``) it is compiled,
+without it the same lines run as they are; the results are the same.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from heapq import heappop, heappush
+
+import numpy as np
+
+NEVER, HAT, SALIENT = 0, 1, 2
+_RULES = {"branch": 0, "surface": 1, "wireframe": 2}
+_INF = float("inf")
+
+
+def collapse(
+    size, rule, printed, simplices, neighbors, alive, count, share, measure, alpha, radii, level, kind, order
+):
+    """Remove simplices until none can go; fills ``level``, ``kind`` and ``order``.
+
+    Parameters
+    ----------
+    size : int
+        Corners of a simplex: 3 or 4.
+    rule : int
+        0 branch, 1 surface, 2 wireframe.
+    printed : bool
+        The criteria as the paper prints them.
+    simplices, neighbors : flat sequences of int
+        Row after row.
+    alive : sequence of bool
+        The simplices of the shape; changed.
+    count : sequence of int
+        How many neighbours of each are alive; changed.
+    share : sequence of float
+        p(v): the boundary each simplex stands for; changed.
+    measure : flat sequence of float
+        Length or area of the facet opposite each corner.
+    alpha : flat sequence of float
+        Criterion of the six pairs of facets (surface rule only).
+    radii : sequence of float
+    level, kind, order : sequences
+        Results: threshold at which each goes, how, and which one is the first, second, ... to go.
+
+    Returns
+    -------
+    int
+        How many were removed.
+    """
+    heap = [(0.0, 0.0, 0, 0)]
+    heappop(heap)
+    todo = [v for v in range(len(alive)) if alive[v]]
+    running = -_INF
+    removed = 0
+    while True:
+        while len(todo) > 0:
+            v = todo.pop()
+            c = count[v]
+            key = 0.0
+            if c == 1:
+                if rule == 1:
+                    key = -_INF
+                else:
+                    p = share[v]
+                    if printed and rule == 0:
+                        for i in range(size):  # the perimeter of A(v) has its inner side as well
+                            n = neighbors[size * v + i]
+                            if n >= 0 and alive[n]:
+                                p += measure[size * v + i]
+                    key = p / radii[v]
+                    if rule == 2 and not printed:
+                        key /= radii[v]
+            elif c == 2 and size == 4 and rule > 0:
+                if rule == 2:
+                    key = -_INF
+                else:
+                    pair = 0
+                    for i in range(4):
+                        n = neighbors[4 * v + i]
+                        if n < 0 or not alive[n]:
+                            for j in range(i + 1, 4):
+                                n = neighbors[4 * v + j]
+                                if n < 0 or not alive[n]:
+                                    pair = i * (7 - i) // 2 + j - i - 1
+                    key = alpha[6 * v + pair]
+            else:
+                continue
+            heappush(heap, (key, radii[v], v, c))
+        if len(heap) == 0:
+            return removed
+        key, _, v, c = heappop(heap)
+        if not alive[v] or count[v] != c:
+            continue
+        if c == 2:
+            # Salient only if the edge of its two inner facets is inner: turn around it till back or out.
+            a, b, leave = -1, -1, -1
+            for i in range(4):
+                n = neighbors[4 * v + i]
+                if n >= 0 and alive[n]:
+                    leave = i
+                elif a < 0:
+                    a = simplices[4 * v + i]
+                else:
+                    b = simplices[4 * v + i]
+            s = v
+            while True:
+                r = neighbors[4 * s + leave]
+                if r < 0 or not alive[r] or r == v:
+                    break
+                following = -1
+                for i in range(4):
+                    x = simplices[4 * r + i]
+                    if x != a and x != b and neighbors[4 * r + i] != s:
+                        following = i
+                s = r
+                leave = following
+            if r != v:
+                continue
+        alive[v] = False
+        if key > running:
+            running = key
+        level[v] = running
+        kind[v] = c
+        order[removed] = v
+        removed += 1
+        k = size - c if printed else c
+        for i in range(size):
+            n = neighbors[size * v + i]
+            if n >= 0 and alive[n]:
+                count[n] -= 1
+                share[n] += share[v] / k
+                todo.append(n)
+
+
+@cache
+def _compiled():
+    try:
+        from numba import njit
+    except ImportError:
+        return None
+    return njit(cache=True)(collapse)
+
+
+def run(
+    rule: str, printed: bool, simplices, neighbors, inner, measure, alpha, radii, compiled: bool | None = None
+):
+    """Levels, kinds and order of removal for arrays (t, N+1) of a tessellation.
+
+    Parameters
+    ----------
+    rule : "branch", "surface" or "wireframe"
+    printed : bool
+    simplices, neighbors : (t, N+1) int arrays
+    inner : (t,) bool array
+    measure : (t, N+1) float array
+    alpha : (t, 6) float array or None
+    radii : (t,) float array
+    compiled : bool, optional
+        Ask for the compiled or the plain loop; by default the compiled one where numba is there.
+
+    Returns
+    -------
+    level : (t,) float array
+        inf for what never goes.
+    kind : (t,) int8 array
+    order : (r,) int array
+    share : (t,) float array
+        p(v) at the time of removal, or at the end.
+    """
+    t, size = simplices.shape
+    there = np.append(inner, False)[neighbors]
+    alpha = np.zeros(0) if alpha is None else np.ascontiguousarray(alpha).ravel()
+    arrays = [
+        np.ascontiguousarray(simplices).ravel(),
+        np.ascontiguousarray(neighbors).ravel(),
+        inner.copy(),
+        there.sum(axis=1),
+        np.where(there, 0.0, measure).sum(axis=1),
+        np.ascontiguousarray(measure).ravel(),
+        alpha,
+        radii,
+        np.full(t, np.inf),
+        np.zeros(t, dtype=np.int8),
+        np.zeros(t, dtype=np.int64),
+    ]
+    loop = _compiled() if compiled is None or compiled else None
+    if loop is None:
+        # Python reads lists several times faster than arrays.
+        lists = [array.tolist() for array in arrays]
+        removed = collapse(size, _RULES[rule], printed, *lists)
+        level, kind, order, share = (np.array(lists[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
+    else:
+        removed = loop(size, _RULES[rule], printed, *arrays)
+        level, kind, order, share = (arrays[k] for k in (8, 9, 10, 4))
+    return level, kind, order[:removed], share

@@ -1,0 +1,241 @@
+"""Simplifying shape and skeleton without changing the topology, at every threshold at once (section 4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import _collapse
+from .branches import branch_graph
+from .complexes import Skeleton, dual_complex
+from .delaunay_shapes import DelaunayShape, delaunay_shape
+from .errors import InputError
+from .graphs import Tessellation
+
+if TYPE_CHECKING:
+    import networkx
+
+_STRATEGIES = {"branch": (2,), "surface": (3,), "wireframe": (3,)}
+_CRITERIA = ("corrected", "as printed")
+
+
+@dataclass(frozen=True, eq=False)
+class Hierarchy:
+    """All simplified skeletons of a shape, nested: made by `hierarchy`.
+
+    Attributes
+    ----------
+    P : DelaunayShape
+    strategy : str
+        "branch", "surface" or "wireframe".
+    criterion : str
+        "corrected" or "as printed".
+    level : (k,) float array
+        For each inner simplex (in the order of ``np.flatnonzero(P.inner)``, which is that of the
+        vertices of ``sk0(P)``) the threshold at which it goes: -inf if it goes systematically before
+        any threshold, inf if it never goes.
+    kind : (k,) int8 array
+        How it goes: 1 as a hat, 2 as a salient, 0 never.
+    order : (r,) int array
+        Positions in ``level`` of the simplices that go, in the order in which they went.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> leaf = psl.hierarchy(psl.datasets.load("leaf"), strategy="branch")
+    >>> sizes = [len(leaf.skeleton(threshold).vertices) for threshold in (0, np.pi, 2 * np.pi)]
+    >>> sizes[0] == len(psl.sk0(leaf.P).vertices), sizes[0] > sizes[1] > sizes[2]
+    (True, True)
+    """
+
+    P: DelaunayShape
+    strategy: str
+    criterion: str
+    level: np.ndarray
+    kind: np.ndarray
+    order: np.ndarray
+
+    @cached_property
+    def simplices(self) -> np.ndarray:
+        """The inner simplices, (k,): rows of ``P.tessellation.simplices``."""
+        return np.flatnonzero(self.P.inner)
+
+    def kept(self, threshold: float) -> np.ndarray:
+        """Which simplices of the tessellation stay at a threshold (level >= threshold), (t,) bool array.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+        >>> h.kept(float("-inf")).tolist() == h.P.inner.tolist()
+        True
+        """
+        if np.isnan(threshold):
+            raise InputError("threshold is not a number; pass an angle in radians, such as pi / 3.")
+        keep = np.zeros_like(self.P.inner)
+        keep[self.simplices] = self.level >= threshold
+        return keep
+
+    def shape(self, threshold: float) -> DelaunayShape:
+        """The simplified shape at a threshold (section 4.1).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.datasets.load("lake"))
+        >>> h.shape(np.pi).betti()
+        (1, 2)
+        """
+        return DelaunayShape(self.P.tessellation, self.kept(threshold))
+
+    def skeleton(self, threshold: float) -> Skeleton:
+        """The simplified skeleton at a threshold: the dual of the simplified shape (section 4.1).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.datasets.load("lake"))
+        >>> h.skeleton(np.pi).betti()
+        (1, 2)
+        """
+        return dual_complex(self.P.tessellation, self.kept(threshold))
+
+    def branches(self, threshold: float) -> networkx.MultiGraph:
+        """Branches of the simplified skeleton; see `polyskel_lite.branches.branch_graph`.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.hierarchy(psl.datasets.load("hawaii")).branches(2 * np.pi).number_of_nodes() > 0
+        True
+        """
+        return branch_graph(self.skeleton(threshold))
+
+
+def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> Hierarchy:
+    """Remove hats and salients, and note for each simplex the threshold at which it goes (sections 4.1-4.3).
+
+    Parameters
+    ----------
+    P : DelaunayShape or Shape
+    strategy : "branch" (2D), "surface" or "wireframe" (3D)
+        "branch": a hat triangle goes when p/r, boundary length over ball radius, is below the threshold.
+        "surface": hats go systematically, a salient tetrahedron goes when the angle between the outward
+        normals of its two boundary faces is below the threshold. "wireframe": salients go
+        systematically, a hat goes when p/r², boundary area over squared radius, is below the threshold.
+    criterion : "corrected" or "as printed"
+        The paper prints the dihedral angle, p/r and, in 2D, the whole perimeter of A(v); see section 4.3
+        of the book for what that does.
+
+    Returns
+    -------
+    Hierarchy
+
+    Raises
+    ------
+    InputError
+        If the strategy does not fit the dimension, or a name is unknown.
+    ContourContainmentError
+        If ``P`` is a shape whose boundary is not in Del(E).
+
+    Notes
+    -----
+    The smallest criterion goes first; the running maximum of the criteria popped so far is exactly the
+    threshold from which on a simplex is removed when the paper's process is run to its end. Ties, such as
+    those of the systematic removals, are broken by ball radius, so the names of the points do not matter.
+
+    References
+    ----------
+    Attali and Montanvert 1997, section 4; Ogniewicz, Discrete Voronoi Skeletons, 1993.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+    >>> h.strategy, len(h.level), int(np.isinf(h.level).sum())
+    ('branch', 3, 1)
+    """
+    if not isinstance(P, DelaunayShape):
+        P = delaunay_shape(P)
+    if strategy is None:
+        strategy = "branch" if P.dimension == 2 else "surface"
+    if strategy not in _STRATEGIES:
+        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(_STRATEGIES)}.")
+    if criterion not in _CRITERIA:
+        raise InputError(f"unknown criterion {criterion!r}; choose one of {', '.join(_CRITERIA)}.")
+    if P.dimension not in _STRATEGIES[strategy]:
+        fitting = [name for name, dimensions in _STRATEGIES.items() if P.dimension in dimensions]
+        raise InputError(
+            f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."
+        )
+    t, printed = P.tessellation, criterion == "as printed"
+    alpha = face_angles(t, printed) if strategy == "surface" else None
+    level, kind, order, _ = _collapse.run(
+        strategy, printed, t.simplices, t.neighbors, P.inner, facet_measures(t), alpha, t.circumradii
+    )
+    position = np.cumsum(P.inner) - 1
+    return Hierarchy(P, strategy, criterion, level[P.inner], kind[P.inner], position[order])
+
+
+_OTHERS = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
+
+
+def _facet_normals(tessellation: Tessellation) -> np.ndarray:
+    """Twice the area vector of each triangle opposite a corner, pointing outward, (t, 4, 3)."""
+    corners = tessellation.points[tessellation.simplices]
+    normals = np.empty(corners.shape)
+    for i, (a, b, c) in enumerate(_OTHERS[4]):
+        u, v = corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]
+        normals[:, i] = np.cross(u, v)
+    return normals
+
+
+def facet_measures(tessellation: Tessellation) -> np.ndarray:
+    """Length (2D) or area (3D) of the facet opposite each corner of each simplex, (t, N+1).
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> facet_measures(psl.delaunay([(0, 0), (4, 0), (0, 3)])).tolist()
+    [[5.0, 3.0, 4.0]]
+    """
+    if tessellation.dimension == 3:
+        return np.sqrt((_facet_normals(tessellation) ** 2).sum(axis=2)) / 2
+    ends = tessellation.points[tessellation.simplices[:, _OTHERS[3]]]
+    return np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2))
+
+
+def face_angles(tessellation: Tessellation, dihedral: bool = False) -> np.ndarray:
+    """Angles in radians between the outward normals of the six pairs of faces of each tetrahedron, (t, 6).
+
+    Parameters
+    ----------
+    tessellation : Tessellation
+        In 3D.
+    dihedral : bool
+        Return the angle between the faces themselves instead, which is pi minus the other.
+
+    Returns
+    -------
+    (t, 6) float array
+        Faces opposite corners (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3).
+
+    Examples
+    --------
+    A corner of a cube: three faces at right angles.
+
+    >>> import polyskel_lite as psl
+    >>> corner = psl.delaunay([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    >>> (face_angles(corner)[0] / np.pi).round(3).tolist()
+    [0.696, 0.696, 0.696, 0.5, 0.5, 0.5]
+    """
+    normals = _facet_normals(tessellation)
+    length = np.sqrt((normals**2).sum(axis=2))
+    angles = np.empty((len(normals), 6))
+    for k, (i, j) in enumerate(((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))):
+        cosine = (normals[:, i] * normals[:, j]).sum(axis=1) / (length[:, i] * length[:, j])
+        angles[:, k] = np.arccos(np.clip(cosine, -1, 1))
+    return np.pi - angles if dihedral else angles
