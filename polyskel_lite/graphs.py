@@ -111,6 +111,10 @@ class Tessellation:
         >>> delaunay([(0, 0), (1, 0), (0, 1)]).apexes().tolist()
         [[0, -1], [1, -1], [2, -1]]
         """
+        return self._apexes
+
+    @cached_property
+    def _apexes(self) -> np.ndarray:
         facets, sides = self.facet_table
         # A simplex's vertices sum up to its facet's vertices plus the apex.
         apex = self.simplices.sum(axis=1)[sides] - facets.sum(axis=1)[:, None]
