@@ -144,18 +144,17 @@ def _compiled():
     return njit(cache=True)(collapse)
 
 
-def run(
-    rule: str, printed: bool, simplices, neighbors, inner, measure, alpha, radii, compiled: bool | None = None
-):
-    """Levels, kinds and order of removal for arrays (t, N+1) of a tessellation.
+def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, compiled: bool | None = None):
+    """Levels, kinds and order of removal for the simplices of a region, numbered from 0.
 
     Parameters
     ----------
     rule : "branch", "surface" or "wireframe"
     printed : bool
     simplices, neighbors : (t, N+1) int arrays
-    inner : (t,) bool array
-    measure : (t, N+1) float array
+        Across the region's boundary the neighbor is -1.
+    measure : (t, N+1) float array or None
+        Not needed for "surface".
     alpha : (t, 6) float array or None
     radii : (t,) float array
     compiled : bool, optional
@@ -171,12 +170,13 @@ def run(
         p(v) at the time of removal, or at the end.
     """
     t, size = simplices.shape
-    there = np.append(inner, False)[neighbors]
+    there = neighbors >= 0
+    measure = np.zeros((t, size)) if measure is None else measure
     alpha = np.zeros(0) if alpha is None else np.ascontiguousarray(alpha).ravel()
     arrays = [
         np.ascontiguousarray(simplices).ravel(),
         np.ascontiguousarray(neighbors).ravel(),
-        inner.copy(),
+        np.ones(t, dtype=bool),
         there.sum(axis=1),
         np.where(there, 0.0, measure).sum(axis=1),
         np.ascontiguousarray(measure).ravel(),

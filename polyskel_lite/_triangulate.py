@@ -43,7 +43,7 @@ def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[n
         if not reason:
             if facets is not None and dimension == 2:
                 simplices, neighbors = with_segments(points, simplices, neighbors, facets)
-            return _canonical(points, simplices, neighbors)
+            return _canonical(simplices, neighbors)
     if _flat(points):
         where = "line" if dimension == 2 else "plane"
         raise TessellationError(f"all {n} points are in one {where}; add a point outside of it.")
@@ -80,11 +80,13 @@ def _orient(points, simplices, neighbors):
     return simplices, neighbors
 
 
-def _canonical(points, simplices, neighbors):
+def _canonical(simplices, neighbors):
     """The same in one order: rows and vertices increasing, but for the last two of odd simplices."""
     inside = np.argsort(simplices, axis=1)
     simplices, neighbors = (np.take_along_axis(array, inside, axis=1) for array in (simplices, neighbors))
-    odd = np.flatnonzero(orientation(points[simplices]) < 0)
+    # Sorting the corners turns a simplex over if it takes an odd number of exchanges.
+    pairs = [(i, j) for j in range(inside.shape[1]) for i in range(j)]
+    odd = np.flatnonzero(sum((inside[:, i] > inside[:, j]).astype(int) for i, j in pairs) % 2)
     for array in (simplices, neighbors):
         array[odd, -2:] = array[odd, :-3:-1]
     order = np.lexsort(simplices.T[::-1])
@@ -117,7 +119,7 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) ->
     first, local, second, back = first[once], local[once], second[once], back[once]
     apex = points[simplices[second, back]]
     across = points[simplices[first]]
-    if (in_ball(across, apex) > 0).any():
+    if (in_ball(across, apex, positive=True) > 0).any():
         return "a sample is inside a Delaunay ball"
     across = across.copy()
     across[np.arange(len(first)), local] = apex

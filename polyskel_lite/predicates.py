@@ -81,24 +81,26 @@ def _dot(u, v):
     return (u * v).sum(axis=-1)
 
 
-def _det(rows, minus=-1):
-    """Determinant (``minus=-1``) or, of absolute values, permanent (``minus=+1``) of up to 4 rows."""
-    if len(rows) == 1:
-        return rows[0][..., 0]
-    total = 0
-    for i, row in enumerate(rows):
-        rest = [r[..., 1:] for j, r in enumerate(rows) if j != i]
-        total = total + (minus if i % 2 else 1) * row[..., 0] * _det(rest, minus)
-    return total
+def _minor(a, b, minus):
+    """Determinant (``minus=-1``) or permanent (``minus=+1``) of the first two coordinates of two rows."""
+    return a[:, 0] * b[:, 1] + minus * a[:, 1] * b[:, 0]
 
 
-def _signs(differences: np.ndarray, polynomial, bound: float, exact_rows) -> np.ndarray:
-    """Sign of ``polynomial(differences, -1)`` with exact arithmetic where the float sign is in doubt."""
+def _signs(differences: np.ndarray, polynomial, degree: int, terms: int, exact_rows) -> np.ndarray:
+    """Sign of ``polynomial(differences, -1)`` with exact arithmetic where the float sign is in doubt.
+
+    Each of the ``terms`` products of ``degree`` differences is rounded fewer than 8 degree times, sums
+    included, so that many units of the sum of their absolute values bound the error with room to spare.
+    """
+    bound = 8 * degree * _UNIT
     with np.errstate(under="ignore"):
         value = polynomial(differences, -1)
-        doubt = np.abs(value) <= bound * polynomial(np.abs(differences), 1) + _FLOOR
+        # A quick bound first: every factor is at most the largest difference of its row.
+        largest = np.abs(differences).max(axis=(1, 2))
+        rows = np.flatnonzero(np.abs(value) <= bound * terms * largest**degree + _FLOOR)
+        some = np.abs(differences[rows])
+        rows = rows[np.abs(value[rows]) <= bound * polynomial(some, 1) + _FLOOR]
     sign = np.sign(value).astype(np.int8)
-    rows = np.flatnonzero(doubt)
     # In blocks, because one common denominator for a whole block keeps NumPy in charge of the loop.
     for block in np.array_split(rows, max(1, len(rows) // 4096)) if len(rows) else ():
         exact = polynomial(exact_rows(block), -1)
@@ -123,7 +125,12 @@ def _differences(base: np.ndarray, others: np.ndarray):
 
 
 def _orientation(d, minus):
-    return _det([d[:, i] for i in range(d.shape[1])], minus)
+    if d.shape[2] == 2:
+        return d[:, 0, 0] * d[:, 1, 1] + minus * d[:, 0, 1] * d[:, 1, 0]
+    a, b, c = d[:, 0], d[:, 1], d[:, 2]
+    return (
+        a[:, 2] * _minor(b, c, minus) + minus * b[:, 2] * _minor(a, c, minus) + c[:, 2] * _minor(a, b, minus)
+    )
 
 
 def orientation(simplices: np.ndarray) -> np.ndarray:
@@ -155,18 +162,28 @@ def orientation(simplices: np.ndarray) -> np.ndarray:
     """
     simplices = np.asarray(simplices, dtype=np.float64)
     scaled, exact = _differences(simplices[:, 0], simplices[:, 1:])
-    return _signs(scaled, _orientation, 64 * _UNIT, exact)
+    n = simplices.shape[2]
+    return _signs(scaled, _orientation, n, 2 if n == 2 else 6, exact)
 
 
 def _in_ball(d, minus):
     # d: simplex corners seen from the query point; the lifted determinant, Guibas and Stolfi 1985.
-    n = d.shape[2]
     lift = _dot(d, d)
-    rows = [np.concatenate([lift[:, i, None], d[:, i]], axis=1) for i in range(n + 1)]
-    return _det(rows, minus)
+    if d.shape[2] == 2:
+        a, b, c = d[:, 0], d[:, 1], d[:, 2]
+        value = lift[:, 0] * _minor(b, c, minus) + minus * lift[:, 1] * _minor(a, c, minus)
+        return value + lift[:, 2] * _minor(a, b, minus)
+    a, b, c, e = (d[:, i] for i in range(4))
+    ab, bc, ce = _minor(a, b, minus), _minor(b, c, minus), _minor(c, e, minus)
+    ac, be, ae = _minor(a, c, minus), _minor(b, e, minus), _minor(a, e, minus)
+    abc = a[:, 2] * bc + minus * b[:, 2] * ac + c[:, 2] * ab
+    bce = b[:, 2] * ce + minus * c[:, 2] * be + e[:, 2] * bc
+    ace = a[:, 2] * ce + minus * c[:, 2] * ae + e[:, 2] * ac
+    abe = a[:, 2] * be + minus * b[:, 2] * ae + e[:, 2] * ab
+    return (lift[:, 0] * bce + minus * lift[:, 1] * ace) + (lift[:, 2] * abe + minus * lift[:, 3] * abc)
 
 
-def in_ball(simplices: np.ndarray, queries: np.ndarray) -> np.ndarray:
+def in_ball(simplices: np.ndarray, queries: np.ndarray, positive: bool = False) -> np.ndarray:
     """Where each query is from the ball circumscribed to its simplex: +1 inside, 0 on the sphere, -1 outside.
 
     Parameters
@@ -174,6 +191,8 @@ def in_ball(simplices: np.ndarray, queries: np.ndarray) -> np.ndarray:
     simplices : (k, N+1, N) float array
         Not flat; either orientation.
     queries : (k, N) float array
+    positive : bool
+        Say that all simplices are positively oriented, which saves looking.
 
     Returns
     -------
@@ -192,7 +211,9 @@ def in_ball(simplices: np.ndarray, queries: np.ndarray) -> np.ndarray:
     """
     simplices = np.asarray(simplices, dtype=np.float64)
     scaled, exact = _differences(np.asarray(queries, dtype=np.float64), simplices)
-    return _signs(scaled, _in_ball, 256 * _UNIT, exact) * orientation(simplices)
+    n = simplices.shape[2]
+    sign = _signs(scaled, _in_ball, n + 2, 12 if n == 2 else 72, exact)
+    return sign if positive else sign * orientation(simplices)
 
 
 def _outside_gabriel(d, minus):
@@ -231,4 +252,5 @@ def in_gabriel_ball(facets: np.ndarray, queries: np.ndarray) -> np.ndarray:
     facets = np.asarray(facets, dtype=np.float64)
     others = np.concatenate([facets[:, 1:], np.asarray(queries, dtype=np.float64)[:, None]], axis=1)
     scaled, exact = _differences(facets[:, 0], others)
-    return -_signs(scaled, _outside_gabriel, 256 * _UNIT, exact)
+    n = facets.shape[2]
+    return -_signs(scaled, _outside_gabriel, 2 if n == 2 else 6, 4 if n == 2 else 162, exact)

@@ -171,30 +171,47 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         raise InputError(
             f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."
         )
-    t, printed = P.tessellation, criterion == "as printed"
-    alpha = face_angles(t, printed) if strategy == "surface" else None
+    t, printed, inner = P.tessellation, criterion == "as printed", np.flatnonzero(P.inner)
+    # The outer simplices take no part: only the inner ones are numbered, measured and removed.
+    number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
+    measure = alpha = None
+    if strategy == "surface":
+        alpha = face_angles(t, inner, dihedral=printed)
+    else:
+        measure = facet_measures(t, inner)
     level, kind, order, _ = _collapse.run(
-        strategy, printed, t.simplices, t.neighbors, P.inner, facet_measures(t), alpha, t.circumradii
+        strategy,
+        printed,
+        t.simplices[inner],
+        number[t.neighbors[inner]],
+        measure,
+        alpha,
+        t.circumradii[inner],
     )
-    position = np.cumsum(P.inner) - 1
-    return Hierarchy(P, strategy, criterion, level[P.inner], kind[P.inner], position[order])
+    return Hierarchy(P, strategy, criterion, level, kind, order)
 
 
 _OTHERS = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
 
 
-def _facet_normals(tessellation: Tessellation) -> np.ndarray:
-    """Twice the area vector of each triangle opposite a corner, pointing outward, (t, 4, 3)."""
-    corners = tessellation.points[tessellation.simplices]
-    normals = np.empty(corners.shape)
+def _facet_normals(tessellation: Tessellation, rows) -> np.ndarray:
+    """Twice the area vector of each triangle opposite a corner, pointing outward, (4, 3, t)."""
+    corners = tessellation.points.T[:, tessellation.simplices[rows].T]
+    normals = np.empty((4, 3, corners.shape[2]))
     for i, (a, b, c) in enumerate(_OTHERS[4]):
-        u, v = corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]
-        normals[:, i] = np.cross(u, v)
+        (ux, uy, uz), (vx, vy, vz) = corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]
+        normals[i] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     return normals
 
 
-def facet_measures(tessellation: Tessellation) -> np.ndarray:
+def facet_measures(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
     """Length (2D) or area (3D) of the facet opposite each corner of each simplex, (t, N+1).
+
+    Parameters
+    ----------
+    tessellation : Tessellation
+    rows : (t,) int array, optional
+        Only these simplices.
 
     Examples
     --------
@@ -203,18 +220,20 @@ def facet_measures(tessellation: Tessellation) -> np.ndarray:
     [[5.0, 3.0, 4.0]]
     """
     if tessellation.dimension == 3:
-        return np.sqrt((_facet_normals(tessellation) ** 2).sum(axis=2)) / 2
-    ends = tessellation.points[tessellation.simplices[:, _OTHERS[3]]]
+        return np.sqrt((_facet_normals(tessellation, rows) ** 2).sum(axis=1)).T / 2
+    ends = tessellation.points[tessellation.simplices[rows][:, _OTHERS[3]]]
     return np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2))
 
 
-def face_angles(tessellation: Tessellation, dihedral: bool = False) -> np.ndarray:
+def face_angles(tessellation: Tessellation, rows=slice(None), dihedral: bool = False) -> np.ndarray:
     """Angles in radians between the outward normals of the six pairs of faces of each tetrahedron, (t, 6).
 
     Parameters
     ----------
     tessellation : Tessellation
         In 3D.
+    rows : (t,) int array, optional
+        Only these simplices.
     dihedral : bool
         Return the angle between the faces themselves instead, which is pi minus the other.
 
@@ -232,10 +251,9 @@ def face_angles(tessellation: Tessellation, dihedral: bool = False) -> np.ndarra
     >>> (face_angles(corner)[0] / np.pi).round(3).tolist()
     [0.696, 0.696, 0.696, 0.5, 0.5, 0.5]
     """
-    normals = _facet_normals(tessellation)
-    length = np.sqrt((normals**2).sum(axis=2))
-    angles = np.empty((len(normals), 6))
-    for k, (i, j) in enumerate(((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))):
-        cosine = (normals[:, i] * normals[:, j]).sum(axis=1) / (length[:, i] * length[:, j])
-        angles[:, k] = np.arccos(np.clip(cosine, -1, 1))
+    normals = _facet_normals(tessellation, rows)
+    normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
+    pairs = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+    cosine = np.stack([(normals[i] * normals[j]).sum(axis=0) for i, j in pairs], axis=1)
+    angles = np.arccos(np.clip(cosine, -1, 1))
     return np.pi - angles if dihedral else angles
