@@ -147,13 +147,16 @@ def test_size_matters_as_printed_in_3d():
 
 def test_area_is_handed_on_completely():
     """With k the neighbours still there, the total of p(v) stays what it was: the boundary's area."""
-    t = random_region(4, n=3, points=100).tessellation
-    measure = facet_measures(t)
-    total = measure[t.neighbors < 0].sum()
+    P = random_region(4, n=3, points=100)
+    t, inner = P.tessellation, np.flatnonzero(P.inner)
+    number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
+    neighbors, measure = number[t.neighbors[inner]], facet_measures(t, inner)
+    total = measure[neighbors < 0].sum()
     for printed in (False, True):
-        level, _, _, share = _collapse.run(
-            "wireframe", printed, t.simplices, t.neighbors, measure, None, t.circumradii
+        level, kind, _, share = _collapse.run(
+            "wireframe", printed, t.simplices[inner], neighbors, measure, None, t.circumradii[inner]
         )
+        assert (kind == _collapse.HAT).any()
         # Sums of a thousand areas of size one hundredth, in another order.
         assert (share[level == np.inf].sum() == pytest.approx(total, rel=1e-9)) != printed
 
