@@ -16,11 +16,11 @@ def near(points: np.ndarray) -> str:
     return "(" + ", ".join(f"{x:g}" for x in points.mean(axis=0)) + ")"
 
 
-def as_facets(facets, n: int) -> np.ndarray:
+def as_facets(facets, n: int, corners: int = 2) -> np.ndarray:
     array = np.array(facets)
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
+    if array.ndim != 2 or array.shape[1] != corners or array.dtype.kind not in "iu":
         raise InputError(
-            f"facets has shape {array.shape} and type {array.dtype}; pass an (m, 2) array of int."
+            f"facets has shape {array.shape} and type {array.dtype}; pass an (m, {corners}) array of int."
         )
     bad = np.argwhere((array < 0) | (array >= n))
     if len(bad):

@@ -186,8 +186,9 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
     wall[rows] = True
     # Simplices connected without crossing the boundary are on one side of it; node t is the unbounded rest.
     _, label = components(t + 1, np.where(sides < 0, t, sides)[~wall])
-    left = orientation(tessellation.points[np.column_stack([shape.facets, apexes[rows, 0]])]) > 0
+    turned = orientation(tessellation.points[np.column_stack([shape.facets, apexes[rows, 0]])])
     inside = np.zeros(label.max() + 1, dtype=bool)
-    inner_side = np.where(left, 0, 1)
+    # In 2D the inner apex is on the left of its segment, in 3D it is behind its outward triangle.
+    inner_side = np.where(turned > 0, 0, 1) if shape.dimension == 2 else np.where(turned < 0, 0, 1)
     inside[label[sides[rows, inner_side]]] = True
     return DelaunayShape(tessellation, inside[label[:t]])

@@ -12,8 +12,10 @@ from scipy.spatial import cKDTree
 
 from ._rings import as_facets, check_closed, near, nesting, ring_facets, rings_of, turn_of
 from .errors import DuplicatePointError, InputError, ShapeError
+from .meshes import check_mesh, mesh_betti, mesh_covering_radius, signed_volume, turned
 from .predicates import as_points
 from .segments import distance_to_segments, first_meeting, locate
+from .triangles import distance_to_triangles, locate_in_mesh
 
 
 def check_distinct(points: np.ndarray, name: str = "points") -> None:
@@ -52,22 +54,24 @@ def check_shape(shape) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """A closed region of the plane given by oriented boundary segments (the polygonal P of section 2.1).
+    """A closed region of the plane or of space, given by its oriented boundary (the P of section 2.1).
 
     Parameters
     ----------
-    points : (n, 2) array-like
+    points : (n, N) array-like, N = 2 or 3
         Boundary vertices, any unit of length, all different.
-    facets : (n, 2) array-like of int
-        Segments from vertex to vertex with the interior on the left: outer rings run
-        counter-clockwise, holes clockwise. Every vertex begins one segment and ends one.
+    facets : (m, N) array-like of int
+        N = 2: segments from vertex to vertex with the interior on the left, so that outer rings run
+        counter-clockwise and holes clockwise; every vertex begins one segment and ends one.
+        N = 3: triangles, counter-clockwise seen from outside the solid (so from inside a cavity); every
+        edge is in two of them, in opposite directions, and around every vertex they make one fan.
 
     Attributes
     ----------
-    points : (n, 2) float array
-    facets : (n, 2) int array
+    points : (n, N) float array
+    facets : (m, N) int array
     dimension : int
-        N = 2.
+        N.
 
     Raises
     ------
@@ -76,11 +80,17 @@ class Shape:
     DuplicatePointError
         If two vertices coincide.
     ShapeError
-        If the boundary is open, crosses or touches itself, or has its interior on the wrong side.
+        If the boundary is open, not manifold, crosses or touches itself, or has its interior on the wrong
+        side; the message names the vertices and the facets.
+
+    Notes
+    -----
+    All of this is checked with exact arithmetic: 20,000 triangles take about two seconds.
 
     See Also
     --------
     Shape.from_rings : the same from lists of vertices in any orientation.
+    Shape.from_mesh : the same from a triangle mesh, which it can turn outward.
 
     References
     ----------
@@ -91,6 +101,10 @@ class Shape:
     >>> triangle = Shape([(0, 0), (4, 0), (0, 3)], [(0, 1), (1, 2), (2, 0)])
     >>> triangle.area(), triangle.length(), triangle.betti()
     (6.0, 12.0, (1, 0))
+    >>> corner = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    >>> tip = Shape([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 6)], corner)
+    >>> tip.volume(), tip.betti()
+    (1.0, (1, 0, 0))
     """
 
     points: np.ndarray
@@ -98,24 +112,17 @@ class Shape:
 
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
-        if points.shape[1] == 3:
-            raise InputError(
-                "points are in 3D; this version's Shape is planar, triangle meshes are not read yet."
-            )
-        facets = as_facets(self.facets, len(points))
-        check_closed(len(points), facets)
-        check_distinct(points)
+        facets = as_facets(self.facets, len(points), points.shape[1])
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "facets", facets)
-        meeting = first_meeting(points, facets)
-        if meeting:
-            i, j = meeting
-            (a, b), (c, d) = facets[i], facets[j]
-            raise ShapeError(
-                f"segment {i} (vertices {a}-{b}) meets segment {j} (vertices {c}-{d}) near "
-                f"{near(points[facets[i]])}; a boundary may not cross or touch itself: move a vertex."
-            )
-        self._check_orientation()
+        if self.dimension == 3:
+            check_distinct(points)
+            check_mesh(points, facets)
+        else:
+            check_closed(len(points), facets)
+            check_distinct(points)
+            self._check_meetings()
+            self._check_orientation()
         points.setflags(write=False)
         facets.setflags(write=False)
 
@@ -163,6 +170,41 @@ class Shape:
         return cls(np.concatenate(rings), ring_facets([len(r) for r in rings]))
 
     @classmethod
+    def from_mesh(cls, V, F, turn: bool = False) -> Shape:
+        """Make a solid from a closed triangle mesh.
+
+        Parameters
+        ----------
+        V : (n, 3) array-like
+            Vertices; those in no face are dropped.
+        F : (m, 3) array-like of int
+            Triangles.
+        turn : bool
+            Turn surfaces that are inside out: outer ones outward, cavities inward.
+
+        Returns
+        -------
+        Shape
+
+        Raises
+        ------
+        InputError, DuplicatePointError, ShapeError
+            As `Shape`. Nothing is repaired but what is said here.
+
+        Examples
+        --------
+        >>> V = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 6), (9, 9, 9)]
+        >>> inside_out = [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)]
+        >>> Shape.from_mesh(V, inside_out, turn=True).volume()
+        1.0
+        """
+        V = as_points(V, name="V", dimensions=(3,))
+        F = as_facets(F, len(V), 3)
+        used, faces = np.unique(F, return_inverse=True)
+        V, F = V[used], faces.reshape(-1, 3)
+        return cls(V, turned(V, F) if turn else F)
+
+    @classmethod
     def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
         """Make a shape from a picture by marching squares; see `polyskel_lite.readers.from_mask`.
 
@@ -177,7 +219,7 @@ class Shape:
 
     @classmethod
     def from_file(cls, path: str | PathLike, **options) -> Shape:
-        """Read a shape from GeoJSON, SVG or PNG; see `polyskel_lite.readers.from_file`.
+        """Read a shape from GeoJSON, SVG, PNG, STL, PLY, OBJ or OFF; see `polyskel_lite.readers.from_file`.
 
         Examples
         --------
@@ -196,17 +238,25 @@ class Shape:
 
     @property
     def segments(self) -> np.ndarray:
-        """The end points of every facet, (m, 2, 2)."""
+        """The corners of every facet, (m, N, N): the ends of segments in 2D, of triangles in 3D."""
         return self.points[self.facets]
 
+    def _require(self, dimension: int, name: str, instead: str) -> None:
+        if self.dimension != dimension:
+            where = "the plane" if dimension == 2 else "space"
+            raise InputError(
+                f"{name}() is for shapes in {where}; this one is in {self.dimension}D: use {instead}."
+            )
+
     def rings(self) -> list[np.ndarray]:
-        """The vertex indices of every closed curve in order, starting at its smallest index.
+        """The vertex indices of every closed curve in order, starting at its smallest index (2D only).
 
         Examples
         --------
         >>> Shape([(0, 0), (1, 0), (0, 1)], [(1, 2), (0, 1), (2, 0)]).rings()
         [array([0, 1, 2])]
         """
+        self._require(2, "rings", "facets")
         return rings_of(self.facets)
 
     def contains(self, queries) -> np.ndarray:
@@ -214,7 +264,7 @@ class Shape:
 
         Parameters
         ----------
-        queries : (k, 2) array-like
+        queries : (k, N) array-like
 
         Returns
         -------
@@ -237,7 +287,8 @@ class Shape:
         >>> square.locate([(1, 1), (2, 1), (3, 1)])
         array([ 1,  0, -1], dtype=int8)
         """
-        return locate(self.segments, as_points(queries, name="queries", dimensions=(2,)))
+        queries = as_points(queries, name="queries", dimensions=(self.dimension,))
+        return (locate if self.dimension == 2 else locate_in_mesh)(self.segments, queries)
 
     def boundary_distance(self, queries) -> np.ndarray:
         """Distance (a length, never negative) from each query to the boundary.
@@ -248,10 +299,12 @@ class Shape:
         >>> square.boundary_distance([(1, 1), (5, 6)])
         array([1., 5.])
         """
-        return distance_to_segments(self.segments, as_points(queries, name="queries", dimensions=(2,)))
+        queries = as_points(queries, name="queries", dimensions=(self.dimension,))
+        distance = distance_to_segments if self.dimension == 2 else distance_to_triangles
+        return distance(self.segments, queries)
 
     def sample(self, n: int, start: float = 0.0) -> np.ndarray:
-        """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling).
+        """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling; 2D only).
 
         Parameters
         ----------
@@ -277,7 +330,7 @@ class Shape:
         return np.concatenate(self._sample_rings(n, start))
 
     def resample(self, n: int, start: float = 0.0) -> Shape:
-        """The polygon P_w through `sample` (n, start).
+        """The polygon P_w through `sample` (n, start); 2D only, see `polyskel_lite.implicit` for solids.
 
         Raises
         ------
@@ -296,6 +349,7 @@ class Shape:
             raise ShapeError(f"{n} samples are too few for this shape: {error}") from None
 
     def _sample_rings(self, n: int, start: float) -> list[np.ndarray]:
+        self._require(2, "sample", "the vertices, or polyskel_lite.implicit.solid for a uniform mesh")
         closed = [self.points[np.append(ring, ring[0])] for ring in self.rings()]
         along = [np.concatenate([[0], np.cumsum(np.hypot(*np.diff(c, axis=0).T))]) for c in closed]
         if not isinstance(n, Integral):
@@ -323,13 +377,14 @@ class Shape:
 
         Parameters
         ----------
-        E : (n, 2) array-like, optional
+        E : (n, N) array-like, optional
             The samples; by default the vertices of the shape.
 
         Returns
         -------
         float
-            Right to about 1e-9 of itself: segments are halved as long as they could hold the maximum.
+            Right to about 1e-9 of itself (1e-6 in 3D): facets are cut as long as a piece could hold the
+            maximum.
 
         Examples
         --------
@@ -337,12 +392,14 @@ class Shape:
         >>> round(square.covering_radius(), 6)
         1.0
         """
-        E = self.points if E is None else as_points(E, name="E", dimensions=(2,))
+        E = self.points if E is None else as_points(E, name="E", dimensions=(self.dimension,))
         if not len(E):
             raise InputError("E is empty; pass at least one sample.")
         tree = cKDTree(E)
-        a, b = self.segments[:, 0], self.segments[:, 1]
         best = float(max(tree.query(self.points)[0].max(), 0.0))
+        if self.dimension == 3:
+            return mesh_covering_radius(self.segments, tree, best)
+        a, b = self.segments[:, 0], self.segments[:, 1]
         while len(a):
             middle, half = (a + b) / 2, np.hypot(*(b - a).T) / 2
             distance = tree.query(middle)[0]
@@ -358,7 +415,7 @@ class Shape:
 
         Parameters
         ----------
-        E : (n, 2) array-like, optional
+        E : (n, N) array-like, optional
             The samples; by default the vertices of the shape.
 
         Returns
@@ -379,36 +436,96 @@ class Shape:
         return 1 / self.covering_radius(E)
 
     def area(self) -> float:
-        """Area of the region.
+        """Area of the region (2D only; in space there are `volume` and `surface`).
 
         Examples
         --------
         >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).area()
         4.0
         """
+        self._require(2, "area", "volume() or surface()")
         a, b = (self.segments - self.points.mean(axis=0)).transpose(1, 0, 2)
         return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2)
 
     def length(self) -> float:
-        """Length of the boundary, holes included.
+        """Length of the boundary, holes included (2D only).
 
         Examples
         --------
         >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).length()
         8.0
         """
+        self._require(2, "length", "surface()")
         return float(np.hypot(*(self.segments[:, 1] - self.segments[:, 0]).T).sum())
 
-    def betti(self) -> tuple[int, int]:
-        """Betti numbers of the region: components (outer rings) and holes (inner rings).
+    def volume(self) -> float:
+        """Volume of the solid, without its cavities (3D only).
+
+        Examples
+        --------
+        >>> corner = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        >>> Shape([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 4)], corner).volume()
+        6.0
+        """
+        self._require(3, "volume", "area()")
+        return signed_volume(self.segments)
+
+    def surface(self) -> float:
+        """Area of the boundary, cavities included (3D only).
+
+        Examples
+        --------
+        >>> corner = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        >>> round(Shape([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], corner).surface(), 6)
+        2.366025
+        """
+        self._require(3, "surface", "length()")
+        a, b, c = self.segments.transpose(1, 0, 2)
+        return float(np.sqrt((np.cross(b - a, c - a) ** 2).sum(axis=1)).sum() / 2)
+
+    def measure(self) -> float:
+        """Area in 2D, volume in 3D.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).measure()
+        4.0
+        """
+        return self.area() if self.dimension == 2 else self.volume()
+
+    def boundary_measure(self) -> float:
+        """Length of the boundary in 2D, its area in 3D.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).boundary_measure()
+        8.0
+        """
+        return self.length() if self.dimension == 2 else self.surface()
+
+    def betti(self) -> tuple[int, ...]:
+        """Betti numbers of the region: (components, holes) in 2D, (components, handles, cavities) in 3D.
 
         Examples
         --------
         >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).betti()
         (1, 0)
         """
+        if self.dimension == 3:
+            return mesh_betti(self.points, self.facets)
         turns = [turn_of(self.points[ring]) for ring in self.rings()]
         return turns.count(1), turns.count(-1)
+
+    def _check_meetings(self) -> None:
+        meeting = first_meeting(self.points, self.facets)
+        if meeting:
+            i, j = meeting
+            (a, b), (c, d) = self.facets[i], self.facets[j]
+            raise ShapeError(
+                f"segment {i} (vertices {a}-{b}) meets segment {j} (vertices {c}-{d}) near "
+                f"{near(self.points[self.facets[i]])}; a boundary may not cross or touch itself: move a "
+                "vertex."
+            )
 
     def _check_orientation(self) -> None:
         rings = self.rings()

@@ -5,7 +5,7 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from polyskel_lite import InputError, Shape, datasets
+from polyskel_lite import InputError, Shape, datasets, missing_facets
 
 # name: (samples stored, components, holes), as listed with the sources of the shapes
 STORED = {
@@ -17,12 +17,42 @@ STORED = {
     "lake": (1000, 1, 2),
     "leaf": (1308, 1, 0),
 }
+# name: (samples, triangles, Betti numbers of the solid)
+SOLIDS = {
+    "chromosome": (2290, 4576, (1, 0, 0)),
+    "fourbranch": (1191, 2378, (1, 0, 0)),
+    "metacarpal": (1500, 2996, (1, 0, 0)),
+    "vertebra": (2011, 4022, (1, 1, 0)),
+}
 
 
 def test_names_are_the_stored_files():
     stored = {entry.name for entry in files(datasets).iterdir() if entry.name.endswith(".npz")}
-    assert datasets.names() == sorted(STORED)
-    assert stored == {f"{name}.npz" for name in STORED}
+    assert datasets.names() == datasets.names(2) == sorted(STORED)
+    assert datasets.names(3) == sorted(SOLIDS)
+    assert datasets.names(None) == sorted([*STORED, *SOLIDS])
+    assert stored == {f"{name}.npz" for name in datasets.names(None)}
+    with pytest.raises(InputError, match="dimension is 4; choose 2"):
+        datasets.names(4)
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_solids_are_in_their_delaunay_tessellation(name):
+    samples, triangles, betti = SOLIDS[name]
+    shape = datasets.load(name)
+    assert (shape.points.shape, shape.facets.shape) == ((samples, 3), (triangles, 3))
+    assert shape.betti() == betti
+    assert len(missing_facets(shape)) == 0
+    assert np.linalg.norm(np.ptp(shape.points, axis=0)) == pytest.approx(1, abs=0.01)
+    text = datasets.info(name)
+    assert f"({samples} samples, {triangles} triangles)" in text
+    assert "CC0" in text or "Apache-2.0" in text
+
+
+def test_solids_are_not_resampled():
+    assert len(datasets.load("fourbranch", n=1191).points) == 1191
+    with pytest.raises(InputError, match="stored with 1191 samples and not made anew with 500"):
+        datasets.load("fourbranch", n=500)
 
 
 @pytest.mark.parametrize("name", STORED)

@@ -1,12 +1,15 @@
-"""Outlines to work with, each with its source and licence.
+"""Outlines and solids to work with, each with its source and licence.
 
-All of them are free to share. The outlines were smoothed a little, sampled uniformly, moved to the
+All of them are free to share. The outlines were smoothed a little and sampled uniformly, the surfaces
+of the solids remeshed uniformly with all triangles in the Delaunay tessellation; all were moved to the
 origin and scaled so that the diagonal of the bounding box is 1.
 
 Examples
 --------
 >>> names()
 ['elephant', 'gear', 'hawaii', 'horse', 'kangaroo', 'lake', 'leaf']
+>>> names(dimension=3)
+['chromosome', 'fourbranch', 'metacarpal', 'vertebra']
 """
 
 from __future__ import annotations
@@ -23,9 +26,17 @@ from ..shapes import Shape
 
 __all__ = ["info", "load", "names"]
 
+# The arrays of an outline and of a solid: points of all rings and where rings begin; vertices and faces.
+_KEYS = {2: {"xy", "off"}, 3: {"V", "F"}}
 
-def names() -> list[str]:
-    """List the names of the shapes, in alphabetical order.
+
+def names(dimension: int | None = 2) -> list[str]:
+    """List the names of the outlines (2D), the solids (3D) or all shapes, in alphabetical order.
+
+    Parameters
+    ----------
+    dimension : 2, 3 or None
+        None: all.
 
     Returns
     -------
@@ -36,7 +47,11 @@ def names() -> list[str]:
     >>> "horse" in names()
     True
     """
-    return sorted(_records())
+    if dimension not in (2, 3, None):
+        raise InputError(f"dimension is {dimension!r}; choose 2 (outlines), 3 (solids) or None (all).")
+    return sorted(
+        name for name in _records() if dimension is None or _arrays(name).keys() >= _KEYS[dimension]
+    )
 
 
 def load(name: str, n: int | None = None) -> Shape:
@@ -45,10 +60,10 @@ def load(name: str, n: int | None = None) -> Shape:
     Parameters
     ----------
     name : str
-        One of `names()`.
+        One of `names(None)`.
     n : int, optional
-        The number of samples on all rings together, uniform by arc length along the finest outline
-        there is. Without it, the stored samples: enough for all edges to be Delaunay edges.
+        Outlines only: the number of samples on all rings together, uniform by arc length along the
+        finest outline there is. Without it, the stored samples: enough for all facets to be Delaunay.
 
     Returns
     -------
@@ -58,7 +73,7 @@ def load(name: str, n: int | None = None) -> Shape:
     Raises
     ------
     InputError
-        If there is no such name, or `n` is less than three a ring.
+        If there is no such name, if `n` is less than three a ring, or given for a solid.
     ShapeError
         If the polygon through so few samples crosses itself.
 
@@ -69,8 +84,19 @@ def load(name: str, n: int | None = None) -> Shape:
     (1000, (1, 2))
     >>> len(load("lake", n=300).points)
     300
+    >>> vertebra = load("vertebra")
+    >>> len(vertebra.points), vertebra.betti()
+    (2011, (1, 1, 0))
     """
     _record(name)
+    if name in names(3):
+        arrays = _arrays(name)
+        if n not in (None, len(arrays["V"])):
+            raise InputError(
+                f"{name} is stored with {len(arrays['V'])} samples and not made anew with {n!r}; leave n "
+                "out, or make a solid of any size with polyskel_lite.implicit.solid."
+            )
+        return Shape(arrays["V"], arrays["F"])
     if n is None:
         return Shape.from_rings(_rings(name, "xy", "off"))
     return Shape.from_rings(_rings(name, "fine_xy", "fine_off")).resample(n)
@@ -82,7 +108,7 @@ def info(name: str) -> str:
     Parameters
     ----------
     name : str
-        One of `names()`.
+        One of `names(None)`.
 
     Returns
     -------
@@ -101,8 +127,12 @@ def info(name: str) -> str:
     source: scikit-image 0.26.0, skimage/data/horse.png
     licence: CC0 1.0, credit: Andreas Preuss (marauder)
     """
-    record, rings = _record(name), _rings(name, "xy", "off")
-    size = f"{sum(map(len, rings))} samples, {len(rings)} ring{'s' if len(rings) > 1 else ''}"
+    record, arrays = _record(name), _arrays(name)
+    if "V" in arrays:
+        size = f"{len(arrays['V'])} samples, {len(arrays['F'])} triangles"
+    else:
+        rings = len(arrays["off"]) - 1
+        size = f"{len(arrays['xy'])} samples, {rings} ring{'s' if rings > 1 else ''}"
     return (
         f"{name}: {record['what']} ({size})\n"
         f"source: {record['source']}\n"
@@ -120,11 +150,18 @@ def _record(name: str) -> dict[str, str]:
     if name not in records:
         near = get_close_matches(str(name).lower(), records, n=1, cutoff=0.0)[0]
         raise InputError(
-            f"There is no shape called {name!r}; did you mean {near!r}? The names are {', '.join(names())}."
+            f"There is no shape called {name!r}; did you mean {near!r}? The names are "
+            f"{', '.join(names(2) + names(3))}."
         )
     return records[name]
 
 
 def _rings(name: str, points: str, offsets: str) -> list[np.ndarray]:
+    arrays = _arrays(name)
+    return np.split(arrays[points].astype(np.float64), arrays[offsets][1:-1])
+
+
+@cache
+def _arrays(name: str) -> dict[str, np.ndarray]:
     with (files(__package__) / f"{name}.npz").open("rb") as stream, np.load(stream) as data:
-        return np.split(data[points].astype(np.float64), data[offsets][1:-1])
+        return dict(data)
