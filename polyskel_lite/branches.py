@@ -45,7 +45,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
         raise InputError("networkx is not installed; run: pip install polyskel-lite[graph]") from None
     node, sheets = _sheet_of(skeleton)
     n, k = len(skeleton.vertices), len(sheets)
-    wires = skeleton.edges[_free_edges(skeleton)]
+    wires = skeleton.edges[free_edges(skeleton)]
     ends = np.where(node[wires] >= 0, n + node[wires], wires)
     degree = np.bincount(ends.ravel(), minlength=n + k)
     # Where branches begin: everything but the inside of a chain; a sheet always.
@@ -103,8 +103,16 @@ def _add_branch(graph, skeleton, path, real):
     graph.add_edge(path[0], path[-1], path=vertices, length=length, radii=skeleton.radii[vertices].tolist())
 
 
-def _free_edges(skeleton: Skeleton) -> np.ndarray:
-    """Rows of ``edges`` that are the side of no polygon."""
+def free_edges(skeleton: Skeleton) -> np.ndarray:
+    """Rows of ``edges`` that are the side of no polygon: the wires.
+
+    Examples
+    --------
+    >>> edges = np.array([(0, 1), (1, 2), (2, 0), (2, 3)])
+    >>> flag = Skeleton(np.zeros((4, 3)), np.ones(4), np.arange(4), edges, [[0, 1, 2]])
+    >>> free_edges(flag).tolist()
+    [3]
+    """
     if not len(skeleton.polygons):
         return np.arange(len(skeleton.edges))
     n = len(skeleton.vertices)

@@ -19,6 +19,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
+from mpl_toolkits.mplot3d import proj3d
 
 import polyskel_lite as psl
 from polyskel_lite import drawing
@@ -295,6 +296,68 @@ def test_mesh_sets_the_view(ax3):
 
 
 # --- style -----------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def slab():
+    """A flat block, full of tetrahedra: its skeleton has polygons."""
+    points = np.random.default_rng(0).random((60, 3)) * [4, 3, 1]
+    tessellation = psl.delaunay(points)
+    return psl.DelaunayShape(tessellation, np.ones(len(tessellation.simplices), dtype=bool))
+
+
+@pytest.mark.parametrize("vertical", ["x", "y", "z"])
+def test_view_direction_is_where_matplotlib_looks_from(ax3, vertical):
+    ax3.view_init(elev=25, azim=40, vertical_axis=vertical)
+    drawing.focus_3d(ax3, np.array([(0, 0, 0), (1, 1, 1)]))
+    # Whoever walks from the middle towards the camera stays where he is in the picture.
+    middle, nearer = np.full(3, 0.5), 0.5 + 0.1 * drawing.view_direction(ax3)
+    (x, y, _), (u, v, _) = (proj3d.proj_transform(*point, ax3.get_proj()) for point in (middle, nearer))
+    assert (u, v) == pytest.approx((x, y), abs=1e-9)
+
+
+def test_glass_has_its_near_faces_over_the_skeleton_and_its_far_faces_under(ax3, slab):
+    drawing.draw_glass(ax3, slab)
+    back, front = ax3.collections
+    assert len(back.get_facecolor()) + len(front.get_facecolor()) == len(slab.boundary())
+    assert back.get_zorder() < drawing.KINDS["sk0"].zorder < front.get_zorder()
+
+
+def test_glass_takes_meshes(ax3):
+    points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], dtype=float)
+    mesh = SimpleNamespace(points=points, facets=[(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    drawing.draw_glass(ax3, mesh)
+    assert sum(len(layer.get_facecolor()) for layer in ax3.collections) == 4
+
+
+def test_skeleton_in_space_leaves_out_what_is_far_away(ax3, slab):
+    skeleton = psl.sk0(slab)
+    low, high = drawing.box_of(slab.tessellation, margin=0.02)
+    seen = ((skeleton.vertices >= low) & (skeleton.vertices <= high)).all(axis=1)
+    drawing.draw_skeleton_3d(ax3, skeleton, wires="all")
+    polygons, edges = ax3.collections
+    assert 0 < len(polygons.get_facecolor()) == sum(seen[p].all() for p in skeleton.polygons)
+    assert len(edges.get_color()) == seen[skeleton.edges].all(axis=1).sum() < len(skeleton.edges)
+
+
+def test_skeleton_in_space_is_coloured_by_values(ax3, slab):
+    """One value everywhere: polygons differ in brightness only, wires not at all."""
+    skeleton = psl.sk0(slab)
+    values = np.full(len(skeleton.vertices), 3.0)
+    drawing.draw_skeleton_3d(ax3, skeleton, values=values, limits=(0, 3), wires="all")
+    faces, wires = ax3.collections[0].get_facecolor(), ax3.collections[1].get_color()
+    assert np.allclose(np.asarray(wires)[:, :3], drawing.RAMP(1.0)[:3])
+    shades = faces[:, :3] / drawing.RAMP(1.0)[:3]
+    assert np.allclose(shades, shades[:, :1])
+    assert 0.6 < shades.min() < shades.max() <= 1
+
+
+def test_skeleton_in_space_without_wires(ax3, slab):
+    skeleton = psl.hierarchy(slab, "wireframe").skeleton(1.0)
+    drawing.draw_skeleton_3d(ax3, skeleton, wires="none")
+    assert len(ax3.collections) == (len(skeleton.polygons) > 0)
+    with pytest.raises(psl.InputError, match="free"):
+        drawing.draw_skeleton_3d(ax3, skeleton, wires="some")
 
 
 def test_legend_takes_kinds_and_artists(ax):

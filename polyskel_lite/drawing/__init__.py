@@ -29,11 +29,13 @@ from .spatial import (
     focus_3d,
 )
 from .spatial_graphs import draw_tessellation_3d, draw_voronoi_3d
+from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d, view_direction
 from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, legend, setup
 from .view import box_of, chains, clip_segments, focus, inset, ray_segments
 
 __all__ = [
     "KINDS",
+    "RAMP",
     "RC",
     "TEXT_WIDTH",
     "VIEW",
@@ -45,9 +47,11 @@ __all__ = [
     "clip_segments",
     "draw_ball",
     "draw_balls",
+    "draw_color_bar",
     "draw_delaunay",
     "draw_facets_3d",
     "draw_gabriel",
+    "draw_glass",
     "draw_lines",
     "draw_lines_3d",
     "draw_mesh",
@@ -55,6 +59,7 @@ __all__ = [
     "draw_samples_3d",
     "draw_shape",
     "draw_skeleton",
+    "draw_skeleton_3d",
     "draw_tessellation_3d",
     "draw_voronoi",
     "draw_voronoi_3d",
@@ -65,4 +70,5 @@ __all__ = [
     "legend",
     "ray_segments",
     "setup",
+    "view_direction",
 ]
