@@ -1,6 +1,6 @@
 """Continuous skeletons from the Voronoi graph of boundary samples (Attali & Montanvert, CVIU 1997)."""
 
-from . import datasets
+from . import datasets, implicit
 from .branches import branch_graph
 from .complexes import Skeleton
 from .conforming import conform, missing_facets
@@ -44,6 +44,7 @@ __all__ = [
     "directed_hausdorff",
     "gabriel",
     "hausdorff",
+    "implicit",
     "hierarchy",
     "missing_facets",
     "reconstruct_curve",
