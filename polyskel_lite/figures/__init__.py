@@ -11,14 +11,16 @@ Examples
 >>> len(figure.axes)
 3
 >>> plt.close(figure)
->>> list(figures.FIGURES)
-['figure_1', 'figure_2', 'figure_2_3d', 'figure_3', 'figure_4', 'figure_5', 'figure_13']
+>>> list(figures.FIGURES)[:4]
+['figure_1', 'figure_2', 'figure_2_3d', 'figure_3']
 """
 
 from .definitions import figure_1, figure_2, figure_2_3d
 from .methods import figure_3, figure_4, figure_5, regular_shape
 from .proof import figure_13
 from .registry import FIGURES, write_figures
+from .removals import figure_6, figure_7
+from .simplification import figure_8, figure_9
 
 __all__ = [
     "FIGURES",
@@ -28,6 +30,10 @@ __all__ = [
     "figure_3",
     "figure_4",
     "figure_5",
+    "figure_6",
+    "figure_7",
+    "figure_8",
+    "figure_9",
     "figure_13",
     "regular_shape",
     "write_figures",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator
 from importlib import resources
@@ -49,7 +50,16 @@ def paper_figure(draw: Callable[..., Figure]) -> Callable[..., Figure]:
     texts = _texts()[draw.__name__]
     styled.caption, styled.alt = (" ".join(texts[key].split()) for key in ("caption", "alt"))
     FIGURES[draw.__name__] = styled
+    # Modules register in the order in which they are imported, which is not the paper's.
+    for name in sorted(FIGURES, key=_place_in_paper):
+        FIGURES[name] = FIGURES.pop(name)
     return styled
+
+
+def _place_in_paper(name: str) -> tuple[int, str]:
+    """The number in the name of a figure function, and what follows it."""
+    _, number, rest = re.split(r"(\d+)", name, maxsplit=1)
+    return int(number), rest
 
 
 @functools.cache

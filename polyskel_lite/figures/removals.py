@@ -1,0 +1,212 @@
+"""Figures 6 and 7: which simplices can be removed, and what goes with them (the paper's section 4.2)."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from .. import drawing
+from ..delaunay_shapes import DelaunayShape, delaunay_shape
+from ..errors import InputError
+from ..shapes import Shape
+from ..skeletons import sk0
+from .registry import paper_figure
+from .solids import REST, THIS, draw_apart, draw_solid, helix, orange, simplex_of, star
+
+#: A polygon with all kinds of triangles, for figures 6 and 7: three arms around a middle.
+POLYGON = np.array(
+    [
+        *[(0.75, 0.3), (0.75, 1.4), (-0.2, 2.2), (-0.62, 0.5), (-1.7, 0.1), (-2.3, -1.1), (0.05, -0.6)],
+        *[(1.1, -1.5), (2.4, -0.9)],
+    ]
+)
+OCTAHEDRON = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], dtype=float)
+
+
+def simplices_by_type(P: DelaunayShape) -> np.ndarray:
+    """How many facets of each simplex are shared with the region, -1 for simplices outside, (t,) int array.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> strip = psl.delaunay_shape(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+    >>> sorted(simplices_by_type(strip)[strip.inner].tolist())
+    [1, 1, 2]
+    """
+    shared = np.append(P.inner, False)[P.tessellation.neighbors].sum(axis=1)
+    return np.where(P.inner, shared, -1)
+
+
+def examples_6() -> list[tuple[DelaunayShape, int]]:
+    """The regions of figure 6, each with the simplex in question: three that can go, three that cannot.
+
+    Examples
+    --------
+    >>> [P.dimension for P, _ in examples_6()]
+    [2, 3, 3, 2, 3, 3]
+    """
+    polygon = delaunay_shape(Shape.from_rings([POLYGON]))
+    kinds = simplices_by_type(polygon)
+    row, book, ring = helix(3), orange(3, of=5), orange(5)
+    ball = star(OCTAHEDRON, (2, 3, 6))
+    return [
+        (polygon, int(np.flatnonzero(kinds == 1)[0])),
+        (row, simplex_of(row, (2, 3, 4, 5))),
+        (ring, simplex_of(ring, (0, 1, 5, 6))),
+        (polygon, int(np.flatnonzero(kinds == 2)[0])),
+        (book, simplex_of(book, (0, 1, 3, 4))),
+        (ball, simplex_of(ball, (0, 1, 4, 5))),
+    ]
+
+
+def _mixed_axes(dimensions, rows: int, height: float, lift: float = 0.0) -> tuple[Figure, list[Axes]]:
+    """A grid of panels in reading order, flat or in space as asked for."""
+    columns = len(dimensions) // rows
+    fig = plt.figure(figsize=(drawing.TEXT_WIDTH, height), layout="none")
+    axs = []
+    for k, dimension in enumerate(dimensions):
+        row, column = divmod(k, columns)
+        place = (column / columns, 1 - (row + 1) / rows + lift, 1 / columns, 1 / rows - lift)
+        if dimension == 3:
+            ax = fig.add_axes(place, projection="3d", computed_zorder=False)
+            ax.view_init(**drawing.VIEW | {"elev": 33})
+        else:
+            ax = fig.add_axes(place)
+            ax.set_aspect("equal")
+        ax.set_axis_off()
+        axs.append(ax)
+    return fig, axs
+
+
+def _letter(ax: Axes, k: int, place: tuple[float, float], words: str = "") -> None:
+    """Write (a), (b) ... and some words at a place of the figure."""
+    write = ax.text2D if ax.name == "3d" else ax.text
+    for shift, text in ((0.0, f"({chr(97 + k)})"), (0.035, words)):
+        write(place[0] + shift, place[1], text, transform=ax.figure.transFigure, va="top", fontsize=9)
+
+
+@paper_figure
+def figure_6(examples=None) -> Figure:
+    """Figure 6: simplices classified, three kinds that can be removed and three that cannot.
+
+    Section 4.2 of the paper.
+
+    Parameters
+    ----------
+    examples : list of six (DelaunayShape, int), optional
+        Regions, each with the row of a simplex; by default `examples_6`.
+
+    Returns
+    -------
+    Figure
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import figures
+    >>> plt.close(figures.figure_6())
+    """
+    examples = examples_6() if examples is None else examples
+    if len(examples) != 6:
+        raise InputError(f"Figure 6 has six panels; got {len(examples)} examples.")
+    words = ("hat triangle", "hat tetrahedron", "salient tetrahedron", "cuts", "cuts", "opens a tunnel")
+    fig, axs = _mixed_axes([P.dimension for P, _ in examples], 2, 4.4, lift=0.01)
+    for k, (ax, (P, this)) in enumerate(zip(axs, examples, strict=True)):
+        if P.dimension == 2:
+            _classified_triangle(ax, P, this)
+        else:
+            draw_apart(ax, P, this, spread=0.9)
+        _letter(ax, k, (k % 3 / 3 + 0.01, 0.985 - k // 3 / 2), words[k])
+    return fig
+
+
+def _classified_triangle(ax: Axes, P: DelaunayShape, this: int) -> None:
+    """The triangles of a region moved apart, one of them in blue, the sides it shares in pale red."""
+    t = P.tessellation
+    corners = t.points[t.simplices]
+    middles = corners.mean(axis=1, keepdims=True)
+    corners = corners + 0.14 * (middles - middles[P.inner].mean(axis=0))
+    for row in np.flatnonzero(P.inner):
+        fill = THIS if row == this else REST
+        drawing.draw_shape(ax, [corners[row]], facecolor=fill, linewidth=0.6)
+    for i in range(3):
+        neighbor = t.neighbors[this, i]
+        if neighbor >= 0 and P.inner[neighbor]:
+            side = np.delete(corners[this], i, axis=0)
+            drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
+    drawing.focus(ax, corners[P.inner].reshape(-1, 2), margin=0.06)
+
+
+def examples_7() -> list[tuple[DelaunayShape, int]]:
+    """The regions of figure 7, each with the simplex that goes: hat triangle, hat and salient tetrahedron.
+
+    Examples
+    --------
+    >>> [len(sk0(P).polygons) for P, _ in examples_7()]
+    [0, 0, 1]
+    """
+    polygon = delaunay_shape(Shape.from_rings([POLYGON]))
+    row, ring = helix(5), orange(6)
+    return [
+        (polygon, simplex_of(polygon, (0, 7, 8))),
+        (row, simplex_of(row, (0, 1, 2, 3))),
+        (ring, simplex_of(ring, (0, 1, 6, 7))),
+    ]
+
+
+@paper_figure
+def figure_7(examples=None) -> Figure:
+    """Figure 7: what the removal of a hat triangle, a hat and a salient tetrahedron does to the skeleton.
+
+    Section 4.2 of the paper.
+
+    Parameters
+    ----------
+    examples : list of (DelaunayShape, int), optional
+        Regions, each with the row of the simplex to be removed; by default `examples_7`.
+
+    Returns
+    -------
+    Figure
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import figures
+    >>> plt.close(figures.figure_7())
+    """
+    examples = examples_7() if examples is None else examples
+    fig, axs = _mixed_axes([P.dimension for P, _ in examples] * 2, 2, 4.2)
+    for k, (P, this) in enumerate(examples):
+        without = P.inner.copy()
+        without[this] = False
+        for ax, inner in ((axs[k], P.inner), (axs[len(examples) + k], without)):
+            Q = DelaunayShape(P.tessellation, inner)
+            if P.dimension == 3:
+                draw_solid(ax, Q, alpha=0.25)
+                drawing.focus_3d(ax, P.tessellation.points, zoom=1.3)
+            else:
+                drawing.draw_delaunay(ax, Q, edges=False)
+                drawing.draw_skeleton(ax, sk0(Q), kind="sk0", linewidth=2.2)
+                drawing.draw_samples(ax, sk0(Q).vertices, kind="sk0", marker="o", markersize=5)
+                drawing.focus(ax, P.tessellation.points, margin=0.08)
+            mark = P.tessellation.simplices[this]
+            if inner is P.inner:
+                _mark(ax, P.tessellation.points[mark])
+        _letter(axs[k], k, ((k + 0.06) / len(examples), 0.985))
+    for y, word in ((0.75, "before"), (0.25, "after")):
+        fig.text(0.002, y, word, rotation=90, va="center", fontsize=9)
+    return fig
+
+
+def _mark(ax: Axes, corners: np.ndarray) -> None:
+    """Outline a simplex."""
+    pairs = np.array([(i, j) for i in range(len(corners)) for j in range(i)])
+    if corners.shape[1] == 2:
+        drawing.draw_shape(ax, [corners], facecolor=THIS, edgecolor="#0072B2", linewidth=1.8, zorder=2.5)
+    else:
+        drawing.draw_lines_3d(
+            ax, corners[pairs], "delaunay", colors="#0072B2", linewidths=1.8, linestyles="-", zorder=7
+        )
