@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from .conforming_solids import conform_solid
 from .errors import InputError, TessellationError
 from .graphs import Tessellation, delaunay, facet_rows, gabriel_mask
 from .segments import point_segment_distance
@@ -51,13 +52,16 @@ def missing_facets(
 def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shape:
     """Add boundary points until every facet is in the strict Gabriel graph, or in the Delaunay tessellation.
 
+    In 3D edges are flipped first, which often suffices; see `polyskel_lite.conforming_solids`.
+
     Parameters
     ----------
     shape : Shape
     to : "gabriel" or "delaunay"
-        "gabriel" makes Theorems 1 and 2 apply, "delaunay" makes Sk0 defined.
+        "gabriel" makes Theorems 1 and 2 apply (in 2D), "delaunay" makes Sk0 defined.
     limit : int, optional
-        Give up beyond this many vertices; by default 10,000 and ten times as many as there are.
+        Give up beyond this many vertices; by default 10,000 and ten times as many as there are (in 3D:
+        2,000 and four times as many).
 
     Returns
     -------
@@ -67,8 +71,10 @@ def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shap
     Raises
     ------
     TessellationError
-        If more than ``limit`` vertices are needed, or if floats are too coarse to halve a segment further. It
-        takes a needle: an angle of 1e-3 radians needs 500 vertices, one of 1e-4 needs 7,000.
+        2D: if more than ``limit`` vertices are needed, or if floats are too coarse to halve a segment
+        further. It takes a needle: an angle of 1e-3 radians needs 500 vertices, one of 1e-4 needs 7,000.
+    ContourContainmentError
+        3D: if the limit is reached; ``.missing`` are the faces of the given shape that are not in the graph.
 
     Notes
     -----
@@ -89,6 +95,8 @@ def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shap
     """
     check_shape(shape)
     _check_name(to)
+    if shape.dimension == 3:
+        return conform_solid(shape, to, limit)
     points, facets = list(map(tuple, shape.points.tolist())), list(map(tuple, shape.facets.tolist()))
     acute = _acute_corners(shape)
     limit = 10_000 + 10 * len(points) if limit is None else limit

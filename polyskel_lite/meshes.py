@@ -73,13 +73,30 @@ def twin_faces(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     Raises
     ------
     ShapeError
-        If an edge has not exactly two faces, or if both run along it in the same direction.
+        As `twin_sides`.
 
     Examples
     --------
     >>> points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     >>> twin_faces(points, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).tolist()
     [[2, 3, 1], [0, 3, 2], [1, 3, 0], [0, 2, 1]]
+    """
+    return twin_sides(points, faces).reshape(-1, 3) // 3
+
+
+def twin_sides(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The side that runs back along each side, (3 m,); side 3 f + i is from corner i of face f to the next.
+
+    Raises
+    ------
+    ShapeError
+        If an edge has not exactly two faces, or if both run along it in the same direction.
+
+    Examples
+    --------
+    >>> points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    >>> twin_sides(points, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])).tolist()
+    [8, 9, 3, 2, 11, 6, 5, 10, 0, 1, 7, 4]
     """
     n = len(points)
     begin, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
@@ -106,8 +123,8 @@ def twin_faces(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
             f"one of them is turned inside out; reverse its corners ({_such(same.sum(), 'edge')})."
         )
     twins = np.empty(len(key), dtype=np.int64)
-    twins[one], twins[two] = two // 3, one // 3
-    return twins.reshape(-1, 3)
+    twins[one], twins[two] = two, one
+    return twins
 
 
 def _check_vertices(points, faces, twins) -> None:

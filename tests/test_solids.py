@@ -92,3 +92,89 @@ def test_plain_function_needs_a_box():
 def test_too_few_samples_for_a_thin_part():
     with pytest.raises(ShapeError, match="60 samples make no mesh of this surface; ask for more"):
         implicit.solid(implicit.torus(1.0, 0.05), 60)
+
+
+# --- containment: missing faces are named, conform repairs or refuses ---------------------------
+
+
+def stretched(shape: psl.Shape, factor: float) -> psl.Shape:
+    """Long thin triangles, as a decimated mesh has them: still closed and without meetings."""
+    return psl.Shape(shape.points * (1, 1, factor), shape.facets)
+
+
+@pytest.mark.parametrize("factor", [3, 8])
+@pytest.mark.parametrize("name", ["torus", "hollow ball", "trefoil", "tetrapod", "vertebra"])
+def test_badly_shaped_meshes_become_contained(name, factor):
+    shape = stretched(solid(name) if name in FIELDS else psl.datasets.load(name), factor)
+    missing = psl.missing_facets(shape)
+    assert 0.08 < len(missing) / len(shape.facets) < 0.9
+    with pytest.raises(psl.ContourContainmentError, match="are not in the Delaunay tessellation") as error:
+        psl.delaunay_shape(shape)
+    assert (error.value.missing == missing).all()
+    repaired = psl.conform(shape, to="delaunay")
+    assert len(psl.missing_facets(repaired)) == 0
+    assert (repaired.points[: len(shape.points)] == shape.points).all()
+    assert len(repaired.points) < 1.5 * len(shape.points)
+    P = psl.delaunay_shape(repaired)
+    assert shape.betti() == repaired.betti() == P.betti() == psl.sk0(P).betti()
+    assert repaired.volume() == pytest.approx(shape.volume(), rel=0.05)
+
+
+def test_contained_shapes_come_back_as_they_are():
+    shape = solid("torus")
+    assert psl.conform(shape, to="delaunay") is shape
+
+
+def test_conform_to_gabriel():
+    shape = psl.datasets.load("metacarpal")
+    assert not psl.delaunay_shape(shape).is_gabriel()
+    assert psl.delaunay_shape(psl.conform(shape, to="gabriel")).is_gabriel()
+
+
+def random_solids(count):
+    """Pieces of random Delaunay tessellations that are manifold: jagged, of any topology."""
+    random = np.random.default_rng(11)
+    while count:
+        points = random.normal(size=(14, 3))
+        tessellation = psl.delaunay(points)
+        inner = random.random(len(tessellation.simplices)) < 0.9
+        try:
+            shape = psl.DelaunayShape(tessellation, inner).to_shape()
+        except psl.ShapeError:
+            continue
+        count -= 1
+        yield psl.Shape(shape.points * 10 ** random.uniform(-1.5, 0, 3), shape.facets)
+
+
+def test_jagged_solids_are_repaired_or_refused():
+    """Needles and edges of all angles: whatever comes back is contained and has the same topology."""
+    outcomes = {"same": 0, "repaired": 0, "refused": 0}
+    for shape in random_solids(100):
+        missing = psl.missing_facets(shape)
+        repaired, refused = shape, None
+        try:
+            repaired = psl.conform(shape, to="delaunay", limit=150)
+        except psl.ContourContainmentError as error:
+            refused = error
+        outcomes["refused" if refused else "repaired" if len(missing) else "same"] += 1
+        if refused:
+            assert refused.missing.tolist() == missing.tolist()
+        else:
+            assert len(psl.missing_facets(repaired)) == 0
+            assert repaired.betti() == shape.betti() == psl.sk0(repaired).betti()
+    assert outcomes["repaired"] > 20, outcomes
+
+
+def test_what_cannot_be_contained_is_refused():
+    """The halves of a right triangle in a plane are right triangles with a neighbour on their circle."""
+    points = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    squares = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = [f for a, b, c, d in squares for f in ((a, b, c), (a, c, d))]
+    cube = psl.Shape(points, faces)
+    message = (
+        r"12 of 12 faces \(first: 0\) are not in the gabriel graph .* with 100 vertices \d+ still are not"
+    )
+    with pytest.raises(psl.ContourContainmentError, match=message) as error:
+        psl.conform(cube, to="gabriel", limit=100)
+    assert error.value.missing.tolist() == list(range(12))
+    assert len(psl.conform(cube, to="delaunay").points) == 8
