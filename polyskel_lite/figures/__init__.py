@@ -20,6 +20,7 @@ from .methods import figure_3, figure_4, figure_5, regular_shape
 from .proof import figure_13
 from .registry import FIGURES, write_figures
 from .removals import figure_6, figure_7
+from .results import figure_10
 from .simplification import figure_8, figure_9
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "figure_7",
     "figure_8",
     "figure_9",
+    "figure_10",
     "figure_13",
     "regular_shape",
     "write_figures",
