@@ -107,6 +107,16 @@ def test_page_lists_every_claim():
 
 # What a check is worth: with a wrong library, the verdict changes.
 
+HIERARCHY = psl.hierarchy
+
+
+def as_printed(P, strategy=None, criterion="corrected"):
+    return HIERARCHY(P, strategy, "as printed")
+
+
+def never_as_printed(P, strategy=None, criterion="corrected"):
+    return HIERARCHY(P, strategy)
+
 
 def broken(claim: str) -> bool:
     verdict = next(entry["verdict"] for entry in CLAIMS if entry["id"] == claim)
@@ -132,6 +142,16 @@ def broken(claim: str) -> bool:
         ("gabriel-refinement", "conform", lambda shape, to="gabriel": shape),
         ("theorem-2-3d", "gabriel", lambda points, closed=True: psl.delaunay(points).facets()[:4]),
         ("complexity-3d-8n", "delaunay", lambda points: type("T", (), {"simplices": points})),
+        ("duality-removal", "sk0", lambda P, side="inner": psl.voronoi(P.tessellation)),
+        ("size-invariant", "hierarchy", as_printed),
+        ("parametrized-by-an-angle", "hierarchy", never_as_printed),
+        ("alpha-criterion", "hierarchy", as_printed),
+        ("alpha-as-printed", "hierarchy", never_as_printed),
+        ("branch-criterion", "hierarchy", as_printed),
+        ("misprint-perimeter", "hierarchy", never_as_printed),
+        ("a-of-v", "hierarchy", as_printed),
+        ("raw-threshold-wrong", "hierarchy", as_printed),
+        ("almost-wireframe", "hierarchy", lambda P, strategy=None: HIERARCHY(P, "surface")),
     ],
 )
 def test_a_wrong_library_is_noticed(claim, name, wrong, monkeypatch):

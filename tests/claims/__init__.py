@@ -4,7 +4,7 @@
 ``pytest "tests/test_claims.py::test_verdict[id]"`` compares it with the register.
 """
 
-from . import comparison, complexity, graphs, introduction, methods, polyballs, proof
+from . import comparison, complexity, graphs, introduction, methods, polyballs, proof, section4
 from .registry import CHECKS, VERDICTS
 
 __all__ = [
@@ -17,4 +17,5 @@ __all__ = [
     "methods",
     "polyballs",
     "proof",
+    "section4",
 ]
