@@ -210,6 +210,23 @@ class Skeleton:
         with open(path, "wb") as file:
             np.savez_compressed(file, **data)
 
+    def to_file(self, path: str | PathLike) -> None:
+        """Write edges and polygons for other programs, as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu).
+
+        Needs the extra ``meshes``. PLY and VTK keep the radii, and `save` keeps everything. See
+        `polyskel_lite.mesh_files.write_skeleton`.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).to_file("corner.stl")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: corner.stl: a skeleton cannot be written as '.stl'; ...
+        """
+        from .mesh_files import write_skeleton
+
+        write_skeleton(self, path)
+
     @classmethod
     def load(cls, path: str | PathLike) -> Skeleton:
         """Read a skeleton written by `save`.

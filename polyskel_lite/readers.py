@@ -1,8 +1,9 @@
 """Files and pictures to shapes, through well-kept readers.
 
 Outlines come from GeoJSON (the standard library), SVG (svgpathtools) and pictures (Pillow, contours
-by contourpy). Whatever the source, rings inside rings are holes (even-odd), and up is up: the rows of
-pictures and the y axis of SVG, which run downward, are flipped.
+by contourpy), solids from mesh files (trimesh). Whatever the source of an outline, rings inside rings
+are holes (even-odd), and up is up: the rows of pictures and the y axis of SVG, which run downward, are
+flipped.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from .errors import InputError, PolyskelError
+from .mesh_files import MESH_SUFFIXES, read_mesh
 from .shapes import Shape
 from .svg import svg_rings
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".pgm", ".pbm", ".ppm")
-_MESHES = (".stl", ".ply", ".obj", ".off")
 # Values nearer to the level than this share of the largest difference are moved away from it.
 _NUDGE = 1e-4
 
@@ -34,6 +35,7 @@ def from_file(
     level: float = 0.5,
     smooth: float = 0.0,
     invert: bool = False,
+    turn: bool = False,
 ) -> Shape:
     """Read a shape from a file; the suffix says how.
 
@@ -43,6 +45,8 @@ def from_file(
       ``pip install polyskel-lite[files]``.
     - ``.png``, ``.jpg`` and other pictures: the silhouette, in pixels (see `from_mask`). It is the
       opaque part if the picture is transparent anywhere, otherwise the dark part.
+    - ``.stl``, ``.ply``, ``.obj``, ``.off``: a closed triangle mesh (see `polyskel_lite.mesh_files`). Needs
+      ``pip install polyskel-lite[meshes]``.
     - ``.npz``: the arrays ``points`` and ``facets`` of a `Shape`, or ``xy`` and ``off`` (the vertices
       of all rings and where each ring begins, with the total at the end).
 
@@ -55,6 +59,8 @@ def from_file(
         Pictures only: see `from_mask`. The values are opacity or darkness, from 0 to 1.
     invert : bool
         Pictures only: take the transparent or bright part.
+    turn : bool
+        Meshes only: turn surfaces that are inside out.
 
     Returns
     -------
@@ -65,7 +71,8 @@ def from_file(
     InputError
         If the file is missing, empty or broken, has no closed outline, or is of a kind not read.
     ShapeError
-        If outlines cross or touch each other or themselves.
+        If outlines cross or touch each other or themselves; if a mesh is open, not manifold, inside out
+        or meets itself.
 
     Notes
     -----
@@ -85,11 +92,7 @@ def from_file(
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    known = (".geojson", ".json", ".svg", ".npz", *_PICTURES)
-    if suffix in _MESHES:
-        raise InputError(
-            f"{path.name}: triangle meshes are not read yet by this version, only flat outlines."
-        )
+    known = (".geojson", ".json", ".svg", ".npz", *MESH_SUFFIXES, *_PICTURES)
     if suffix not in known:
         raise InputError(
             f"{path.name}: no reader for {suffix or 'no suffix'!r}; it reads {', '.join(known)}."
@@ -101,6 +104,8 @@ def from_file(
     try:
         if suffix == ".npz":
             return _read_npz(path)
+        if suffix in MESH_SUFFIXES:
+            return read_mesh(path, turn)
         if suffix in _PICTURES:
             return _read_picture(path, level, smooth, invert)
         rings = svg_rings(path, tolerance) if suffix == ".svg" else _geojson_rings(path)

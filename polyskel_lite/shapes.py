@@ -231,6 +231,22 @@ class Shape:
 
         return from_file(path, **options)
 
+    def to_file(self, path: str | PathLike) -> None:
+        """Write the boundary as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D also as STL or OFF.
+
+        Needs the extra ``meshes``. PLY, OBJ, OFF and VTK keep the coordinates to the last bit; STL and
+        glTF round them to single precision. See `polyskel_lite.mesh_files.write_shape`.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (0, 2)]]).to_file("triangle.stl")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: triangle.stl: a shape in the plane cannot be written as '.stl'; ...
+        """
+        from .mesh_files import write_shape
+
+        write_shape(self, path)
+
     @property
     def dimension(self) -> int:
         """N, the dimension of the space."""

@@ -487,12 +487,6 @@ def test_bad_npz(tmp_path):
         from_file(tmp_path / "d.npz")
 
 
-@pytest.mark.parametrize("suffix", [".stl", ".PLY", ".obj", ".off"])
-def test_meshes_wait(tmp_path, suffix):
-    with pytest.raises(InputError, match="triangle meshes are not read yet by this version"):
-        from_file(tmp_path / f"bone{suffix}")
-
-
 @pytest.mark.parametrize("suffix", [".geojson", ".svg", ".png", ".npz"])
 def test_missing_empty_and_folder(tmp_path, suffix):
     path = tmp_path / f"a{suffix}"
