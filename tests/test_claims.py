@@ -151,7 +151,7 @@ def broken(claim: str) -> bool:
         ("misprint-perimeter", "hierarchy", never_as_printed),
         ("a-of-v", "hierarchy", as_printed),
         ("raw-threshold-wrong", "hierarchy", as_printed),
-        ("almost-wireframe", "hierarchy", lambda P, strategy=None: HIERARCHY(P, "surface")),
+        ("branches-found", "hierarchy", as_printed),
     ],
 )
 def test_a_wrong_library_is_noticed(claim, name, wrong, monkeypatch):
