@@ -24,16 +24,20 @@ class VoronoiInShape:
     def __init__(self, shape: Shape, E, side: int):
         self.side = side
         self.segments = shape.segments
-        self.tessellation = E if isinstance(E, Tessellation) else delaunay(shape.points if E is None else E)
+        if E is None:
+            # Among cocircular samples the diagonals of the boundary: the tessellation of `delaunay_shape`.
+            E = delaunay(shape.points, shape.facets)
+        self.tessellation = E if isinstance(E, Tessellation) else delaunay(E)
         if self.tessellation.dimension != 2:
             raise InputError(
                 f"E is in {self.tessellation.dimension}D and the shape in 2D; pass an (n, 2) array."
             )
-        self.error = _circumcenter_error(self.tessellation)
-        self.inside = self._vertices_inside()
+        self.error = self.tessellation.circumcenter_errors
+        self.reach = shape.covering_radius(self.tessellation.points)
         low, high = shape.points.min(axis=0), shape.points.max(axis=0)
         # A ray cut at this length ends outside the box of the shape, wherever it begins.
         self.extent = float(np.abs(np.concatenate([self.tessellation.points, [low, high]])).max())
+        self.inside = self._vertices_inside()
 
     def vertices(self) -> Skeleton:
         keep = self.inside
@@ -98,10 +102,13 @@ class VoronoiInShape:
         ends[clear, 1] = self._float_ends(clear)
         slack = np.where(doubt, 0.0, error.max(axis=1))
         hits: list[tuple[np.ndarray, np.ndarray]] = []
-        low, high = ends.min(axis=1) - slack[:, None], ends.max(axis=1) + slack[:, None]
+        low, high = self._meeting_boxes()
+        low[clear] = np.maximum(low[clear], ends[clear].min(axis=1) - slack[clear, None])
+        high[clear] = np.minimum(high[clear], ends[clear].max(axis=1) + slack[clear, None])
         box_low, box_high = self.segments.min(axis=1), self.segments.max(axis=1)
-        for i, j in overlapping_pairs(low[clear], high[clear], box_low, box_high):
-            i = clear[i]
+        meet = clear[(low[clear] <= high[clear]).all(axis=1)]
+        for i, j in overlapping_pairs(low[meet], high[meet], box_low, box_high):
+            i = meet[i]
             t, meets, unsure = _crossing(ends[i], self.segments[j], slack[i])
             doubt[i[unsure]] = True
             hits.append((i[meets], t[meets]))
@@ -121,13 +128,24 @@ class VoronoiInShape:
             self.pieces[row] = list(pairwise(cuts))[0 if starts_inside[row] else 1 :: 2]
             partial[row] = True
         for row in np.flatnonzero(doubt).tolist():
-            pieces = clip_exactly(self.segments, *self._exact_ends(row), self.side)
+            near = ((low[row] <= box_high) & (box_low <= high[row])).all(axis=1)
+            pieces = clip_exactly(self.segments, *self._exact_ends(row), self.side, near)
             whole[row] = pieces == [(0, 1)]
             if pieces and not whole[row]:
                 self.pieces[row] = pieces
                 partial[row] = True
         self.partial = partial
         return ~whole
+
+    def _meeting_boxes(self):
+        """Boxes that hold every boundary point of each Voronoi edge.
+
+        Such a point is as far from the edge's two samples as from all samples: at most w⁻¹.
+        """
+        pair = self.tessellation.points[self.tessellation.facets()]
+        # w⁻¹ is right to 1e-9 of itself and to some 1e-15 of the coordinates.
+        reach = self.reach * (1 + 1e-6) + 1e-12 * self.extent
+        return pair.max(axis=1) - reach, pair.min(axis=1) + reach
 
     def _float_ends(self, rows):
         sides = self.tessellation.facet_table[1][rows]
@@ -188,25 +206,6 @@ def exact_circumcenter(triangle: np.ndarray) -> tuple[Fraction, Fraction]:
     twice = 2 * (bx * cy - by * cx)
     lb, lc = bx * bx + by * by, cx * cx + cy * cy
     return ax + (cy * lb - by * lc) / twice, ay + (bx * lc - cx * lb) / twice
-
-
-def _circumcenter_error(tessellation: Tessellation) -> np.ndarray:
-    """A bound on the distance between each float circumcenter and the true one, (t,)."""
-    unit = 2.0**-53
-    corners = tessellation.points[tessellation.simplices]
-    d = np.abs(corners[:, 1:] - corners[:, :1])
-    signed = corners[:, 1:] - corners[:, :1]
-    determinant = np.abs(signed[:, 0, 0] * signed[:, 1, 1] - signed[:, 0, 1] * signed[:, 1, 0])
-    permanent = d[:, 0, 0] * d[:, 1, 1] + d[:, 0, 1] * d[:, 1, 0]
-    lift = (d**2).sum(axis=2)
-    numerator = (d[:, 1] * lift[:, :1] + d[:, 0] * lift[:, 1:]).sum(axis=1)
-    radii = tessellation.circumradii
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # Rounding of numerator and denominator, each a few units of the sum of its absolute terms.
-        relative = 16 * unit * permanent / determinant
-        error = 16 * unit * (numerator / determinant + radii * permanent / determinant)
-        error += 4 * unit * np.abs(tessellation.circumcenters).max(axis=1)
-    return np.where(np.isfinite(error) & (relative < 0.25), error, np.inf)
 
 
 def _near(queries, error, segments) -> np.ndarray:

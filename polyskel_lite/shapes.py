@@ -416,12 +416,14 @@ class Shape:
         if self.dimension == 3:
             return mesh_covering_radius(self.segments, tree, best)
         a, b = self.segments[:, 0], self.segments[:, 1]
+        # Far from the origin floats are too coarse to say more.
+        coarse = 16 * np.finfo(float).eps * np.abs(self.points).max()
         while len(a):
             middle, half = (a + b) / 2, np.hypot(*(b - a).T) / 2
             distance = tree.query(middle)[0]
             best = max(best, float(distance.max()))
             # The distance to E changes by at most the way walked, so other segments cannot beat `best`.
-            keep = distance + half > best * (1 + 1e-9) + 1e-300
+            keep = distance + half > best * (1 + 1e-9) + coarse
             a, b, middle = a[keep], b[keep], middle[keep]
             a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
         return best
