@@ -159,6 +159,8 @@ def draw_lines_3d(ax: Axes, segments, kind: str = "delaunay", **style) -> Axes:
     >>> plt.close(fig)
     """
     look = kind_of(kind)
+    if len(segments) == 0:
+        return ax
     options = {
         "colors": look.color,
         "linewidths": look.linewidth,

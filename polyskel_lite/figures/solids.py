@@ -158,7 +158,7 @@ def paint(ax: Axes, triangles, colors, alpha=1.0, edgecolor="#4D4D4D", linewidth
 
 
 def draw_apart(
-    ax: Axes, P: DelaunayShape, this: int = -2, spread: float = 0.5, shrink: float = 1.0, alpha=0.95
+    ax: Axes, P: DelaunayShape, this: int = -2, spread: float = 0.5, shrink: float = 1.0, alpha=0.95, **focus
 ) -> Axes:
     """Draw the tetrahedra of a region moved apart; one of them in blue, the facets it shares in red.
 
@@ -175,6 +175,8 @@ def draw_apart(
         How far each is moved away from the common centre, as a share of its distance to it.
     shrink : float
         Each tetrahedron is scaled by it about its own centroid.
+    **focus
+        Handed on to `polyskel_lite.drawing.focus_3d`.
 
     Examples
     --------
@@ -196,7 +198,7 @@ def draw_apart(
     for four in corners[(rows == this) & (shared.sum(axis=1) == 2)]:
         edge = four[~shared[rows == this][0]]  # where the two shared facets meet
         drawing.draw_lines_3d(ax, [edge], "delaunay", colors="#000000", linewidths=2.4, zorder=6)
-    return drawing.focus_3d(ax, corners.reshape(-1, 3))
+    return drawing.focus_3d(ax, corners.reshape(-1, 3), **focus)
 
 
 def draw_solid(ax: Axes, P: DelaunayShape, alpha: float = 0.3, skeleton: bool = True, **focus) -> Axes:
