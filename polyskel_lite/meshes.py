@@ -271,6 +271,8 @@ def mesh_covering_radius(triangles: np.ndarray, tree, best: float) -> float:
     >>> round(mesh_covering_radius(corners[None], cKDTree(corners), 0.0), 5)
     2.5
     """
+    # Far from the origin floats are too coarse to say more.
+    coarse = 16 * np.finfo(float).eps * np.abs(triangles).max()
     while len(triangles):
         middle = (triangles.min(axis=1) + triangles.max(axis=1)) / 2
         reach = np.sqrt(((triangles - middle[:, None]) ** 2).sum(axis=2)).max(axis=1)
@@ -278,7 +280,7 @@ def mesh_covering_radius(triangles: np.ndarray, tree, best: float) -> float:
         centroid = tree.query(triangles.mean(axis=1))[0]
         best = max(best, float(centroid.max()))
         # The distance to the samples changes by at most the way walked.
-        t = triangles[distance + reach > best * (1 + 1e-6) + 1e-300]
+        t = triangles[distance + reach > best * (1 + 1e-6) + coarse]
         a, b, c = t.transpose(1, 0, 2)
         d, e, f = (a + b) / 2, (b + c) / 2, (c + a) / 2
         pieces = ((a, d, f), (d, b, e), (f, e, c), (d, e, f))

@@ -121,16 +121,24 @@ def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | N
         apart = ~shared.any(axis=(1, 2))
         bad = np.zeros(len(i), dtype=bool)
         bad[apart] = segments_meet(ends[i[apart]], ends[j[apart]])
-        for k in np.flatnonzero(~apart):
-            common, other = np.argwhere(shared[k])[0]
-            v, p, q = facets[i[k], common], facets[i[k], 1 - common], facets[j[k], 1 - other]
-            # On each other: collinear, and the common vertex outside the ball of diameter pq.
-            flat = p == q or orientation(points[[[v, p, q]]])[0] == 0
-            bad[k] = flat and (p == q or in_gabriel_ball(points[[[p, q]]], points[[v]])[0] < 0)
+        bad[~apart] = _on_each_other(points, facets[i[~apart]], facets[j[~apart]], shared[~apart])
         if bad.any():
             k = np.flatnonzero(bad)[np.lexsort((j[bad], i[bad]))[0]]
             return int(i[k]), int(j[k])
     return None
+
+
+def _on_each_other(points, a, b, shared) -> np.ndarray:
+    """Whether segments with a common vertex share more; ``shared[k, i, j]`` says that a[k, i] is b[k, j]."""
+    k = np.arange(len(a))
+    place = shared.reshape(-1, 4).argmax(axis=1)
+    common, p, q = a[k, place // 2], a[k, 1 - place // 2], b[k, 1 - place % 2]
+    bad = p == q
+    # Collinear, and the common vertex outside the ball of diameter pq.
+    flat = np.flatnonzero(~bad)
+    flat = flat[orientation(points[np.stack([common, p, q], axis=1)[flat]]) == 0]
+    bad[flat] = in_gabriel_ball(points[np.stack([p, q], axis=1)[flat]], points[common[flat]]) < 0
+    return bad
 
 
 def locate(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
@@ -202,7 +210,7 @@ def _rational(segment: np.ndarray):
     return [(Fraction(x), Fraction(y)) for x, y in segment.tolist()]
 
 
-def clip_exactly(segments: np.ndarray, start, end, side: int) -> list[tuple[Fraction, Fraction]]:
+def clip_exactly(segments: np.ndarray, start, end, side: int, near=None) -> list[tuple[Fraction, Fraction]]:
     """The parameter intervals of the segment start-end that lie in the closed region, by rationals.
 
     Parameters
@@ -212,6 +220,8 @@ def clip_exactly(segments: np.ndarray, start, end, side: int) -> list[tuple[Frac
     start, end : pairs of Fraction
     side : +1 or -1
         The closed region inside, or the closure of its complement.
+    near : (m,) bool array, optional
+        The segments that can meet it, if that is known.
 
     Returns
     -------
@@ -231,7 +241,7 @@ def clip_exactly(segments: np.ndarray, start, end, side: int) -> list[tuple[Frac
     if dx == 0 and dy == 0:
         return [(Fraction(0), Fraction(1))] if side * locate_exactly(segments, start) >= 0 else []
     cuts = {Fraction(0), Fraction(1)}
-    for (ax, ay), (bx, by) in (_rational(s) for s in segments):
+    for (ax, ay), (bx, by) in (_rational(s) for s in (segments if near is None else segments[near])):
         ex, ey = bx - ax, by - ay
         det = dx * ey - dy * ex
         if det:
