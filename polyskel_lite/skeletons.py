@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ._inside import VoronoiInShape
+from ._inside_solids import VoronoiInSolid
 from .complexes import Skeleton, dual_complex
 from .delaunay_shapes import DelaunayShape, delaunay_shape
 from .errors import InputError
@@ -58,7 +59,7 @@ def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     ----------
     shape : Shape
         X, of which E samples the boundary.
-    E : (n, 2) array-like or Tessellation, optional
+    E : (n, N) array-like or Tessellation, optional
         The samples; by default the vertices of the shape.
     side : "inner" or "outer"
         "outer": those in the (closed) complement.
@@ -66,7 +67,7 @@ def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     Returns
     -------
     Skeleton
-        Vertices only. Cocircular samples give several at one place.
+        Vertices only. Cocircular (cospherical) samples give several at one place.
 
     References
     ----------
@@ -89,7 +90,7 @@ def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     ----------
     shape : Shape
         X, of which E samples the boundary.
-    E : (n, 2) array-like or Tessellation, optional
+    E : (n, N) array-like or Tessellation, optional
         The samples; by default the vertices of the shape.
     side : "inner" or "outer"
         "outer": the elements, rays too, in the closed complement.
@@ -97,7 +98,8 @@ def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     Returns
     -------
     Skeleton
-        Which elements are in is decided exactly, by rationals where floats are in doubt.
+        Which elements are in is decided exactly, by rationals where floats are in doubt. In 3D a polygon
+        is in if all its sides are, and no edge of the boundary goes through it.
 
     References
     ----------
@@ -122,7 +124,7 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     ----------
     shape : Shape
         X, of which E samples the boundary.
-    E : (n, 2) array-like or Tessellation, optional
+    E : (n, N) array-like or Tessellation, optional
         The samples; by default the vertices of the shape.
     side : "inner" or "outer"
 
@@ -131,7 +133,8 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     Skeleton
         As Sk2, with the pieces of the edges that cross the boundary. Where the boundary cuts an edge
         a vertex is added whose ``simplices`` entry is -1. Points where an edge only touches the
-        shape are left out.
+        shape are left out. In 3D only the edges are cut: the polygons are those of Sk2, and the pieces of
+        polygons that cross the boundary are left out.
 
     References
     ----------
@@ -148,9 +151,10 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     return _voronoi(shape, E, side).intersection()
 
 
-def _voronoi(shape: Shape, E, side: str) -> VoronoiInShape:
+def _voronoi(shape: Shape, E, side: str) -> VoronoiInShape | VoronoiInSolid:
     check_shape(shape)
-    return VoronoiInShape(shape, E, _side(side))
+    kind = VoronoiInShape if shape.dimension == 2 else VoronoiInSolid
+    return kind(shape, E, _side(side))
 
 
 def _side(side: str) -> int:
