@@ -145,6 +145,7 @@ def broken(claim: str) -> bool:
         ("duality-removal", "sk0", lambda P, side="inner": psl.voronoi(P.tessellation)),
         ("size-invariant", "hierarchy", as_printed),
         ("parametrized-by-an-angle", "hierarchy", never_as_printed),
+        ("hierarchy-nested", "hierarchy", as_printed),
         ("alpha-criterion", "hierarchy", as_printed),
         ("alpha-as-printed", "hierarchy", never_as_printed),
         ("branch-criterion", "hierarchy", as_printed),

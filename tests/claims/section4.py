@@ -158,6 +158,8 @@ def thresholds_make_a_hierarchy():
         for strategy, rule in RULES.items():
             P = random_region(seed, 2 if strategy == "branch" else 3, 30 if strategy == "branch" else 16)
             kept = [_survivors(P, rule, t) for t in THRESHOLDS]
+            h = psl.hierarchy(P, strategy)
+            assert kept == [names(P, h.kept(t)) for t in THRESHOLDS]
             any_order = [_survivors(P, rule, t, shuffled(k)) for k, t in enumerate(THRESHOLDS)]
             nested &= all(b <= a for a, b in pairwise(kept))
             by_chance &= all(b <= a for a, b in pairwise(any_order))
