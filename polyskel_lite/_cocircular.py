@@ -23,11 +23,11 @@ def with_segments(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarr
     [[1, 2, 3], [3, 0, 1]]
     """
     edges = np.sort(simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    present = set(map(tuple, edges.tolist()))
-    facets = list(map(tuple, np.sort(facets, axis=1).tolist()))
-    missing = {facet for facet in facets if facet not in present}
-    if not missing:
+    rows = np.sort(facets, axis=1)
+    absent = ~np.isin(rows @ (len(points), 1), edges @ (len(points), 1))
+    if not absent.any():
         return simplices, neighbors
+    missing, facets = set(map(tuple, rows[absent].tolist())), list(map(tuple, rows.tolist()))
     first, local = np.nonzero(neighbors >= 0)
     second = neighbors[first, local]
     # The vertex of the neighbour that the two do not share.

@@ -84,55 +84,50 @@ def dual_polygons(simplices: np.ndarray, neighbors: np.ndarray, number: np.ndarr
     [4]
     """
     kept = np.flatnonzero(number[:-1] >= 0)
-    ends = np.sort(simplices[kept][:, _EDGES[:, :2]], axis=2).reshape(-1, 2)
-    tetrahedron = np.repeat(kept, 6)
-    leave = np.tile(_EDGES[:, 2], len(kept))
+    if not len(kept):
+        return Polygons()
+    cell = np.full(len(number), -1)
+    cell[kept] = np.arange(len(kept))
+    a, b = simplices[kept][:, _EDGES[:, 0]], simplices[kept][:, _EDGES[:, 1]]
     # A positive tetrahedron seen along the edge the other way turns the other way.
-    flipped = simplices[tetrahedron, np.tile(_EDGES[:, 0], len(kept))] != ends[:, 0]
-    leave[flipped] = np.tile(_EDGES[:, 3], len(kept))[flipped]
-    following = neighbors[tetrahedron, leave]
-    open_side = number[following] < 0
+    leave = np.where(a < b, _EDGES[:, 2], _EDGES[:, 3])
+    following = cell[np.take_along_axis(neighbors[kept], leave, axis=1)]
     if cut is not None:
-        open_side |= cut[tetrahedron, leave]
-    key = ends[:, 0] * (simplices.max(initial=0) + 1) + ends[:, 1]
-    order = np.lexsort((tetrahedron, key))
-    key, tetrahedron, following, open_side = (
-        key[order],
-        tetrahedron[order],
-        following[order],
-        open_side[order],
-    )
-    first = np.flatnonzero(np.append(True, key[1:] != key[:-1])) if len(key) else np.zeros(0, dtype=np.int64)
-    size = np.diff(np.append(first, len(key)))
-    blocked = np.add.reduceat(open_side, first) > 0 if len(first) else np.zeros(0, dtype=bool)
-    first, size = first[~blocked], size[~blocked]
-    # Step around all edges at once; the records of one edge are sorted by tetrahedron.
-    at, corners, length = (
-        first.copy(),
-        np.empty(size.sum(), dtype=np.int64),
-        np.zeros(len(first), dtype=np.int64),
-    )
-    begin = np.cumsum(size) - size
-    active = np.arange(len(first))
-    position = _positions(key, tetrahedron, following, open_side)
-    for step in range(int(size.max(initial=0))):
-        corners[begin[active] + step] = number[tetrahedron[at[active]]]
-        at[active] = position[at[active]]
+        following[np.take_along_axis(cut[kept], leave, axis=1)] = -1
+    edge = (np.minimum(a, b) * (simplices.max() + 1) + np.maximum(a, b)).ravel()
+    edge, owner, following = _surrounded(edge, np.repeat(np.arange(len(kept)), 6), following.ravel())
+    position = _positions(edge, owner, following, len(kept))
+    first = np.flatnonzero(np.diff(edge, prepend=-1))
+    begin, corners = first, np.empty(len(edge), dtype=np.int64)
+    length = np.zeros(len(first), dtype=np.int64)
+    # Step around all edges at once, each from its first tetrahedron.
+    at, active = first.copy(), np.arange(len(first))
+    while len(active):
+        corners[begin[active] + length[active]] = number[kept[owner[at[active]]]]
         length[active] += 1
+        at[active] = position[at[active]]
         active = active[at[active] != first[active]]
-        if not len(active):
-            break
     return _compact(corners, begin, length)
 
 
-def _positions(key, tetrahedron, following, open_side):
+def _surrounded(edge, owner, following):
+    """The records of edges with kept tetrahedra all around, sorted by edge (numbered from 0) and owner."""
+    order = np.argsort(edge)
+    edge, owner, following = edge[order], owner[order], following[order]
+    first = np.flatnonzero(np.diff(edge, prepend=-1))
+    size = np.diff(first, append=len(edge))
+    closed = np.minimum.reduceat(following, first) >= 0
+    keep = np.repeat(closed, size)
+    edge = np.repeat(np.arange(np.count_nonzero(closed)), size[closed])
+    owner, following = owner[keep], following[keep]
+    # Edge numbers are small, so that both fit into one key of 63 bits: sorting one is many times faster.
+    order = np.argsort(edge * (owner.max(initial=0) + 1) + owner)
+    return edge, owner[order], following[order]
+
+
+def _positions(edge, owner, following, span):
     """Index of the record (same edge, next tetrahedron) of each record."""
-    span = tetrahedron.max(initial=0) + 1
-    # Ranks keep the combined key within 63 bits.
-    rank = np.cumsum(np.append(False, key[1:] != key[:-1])) if len(key) else key
-    own = rank * span + tetrahedron
-    found = np.searchsorted(own, rank * span + np.where(open_side, 0, following))
-    return np.minimum(found, max(len(own) - 1, 0))
+    return np.searchsorted(edge * span + owner, edge * span + following)
 
 
 def _compact(corners, begin, length) -> Polygons:

@@ -96,7 +96,7 @@ def _signs(differences: np.ndarray, polynomial, degree: int, terms: int, exact_r
     with np.errstate(under="ignore"):
         value = polynomial(differences, -1)
         # A quick bound first: every factor is at most the largest difference of its row.
-        largest = np.abs(differences).max(axis=(1, 2))
+        largest = np.maximum(differences.max(axis=(1, 2)), -differences.min(axis=(1, 2)))
         rows = np.flatnonzero(np.abs(value) <= bound * terms * largest**degree + _FLOOR)
         some = np.abs(differences[rows])
         rows = rows[np.abs(value[rows]) <= bound * polynomial(some, 1) + _FLOOR]
@@ -110,18 +110,29 @@ def _signs(differences: np.ndarray, polynomial, degree: int, terms: int, exact_r
 
 def _differences(base: np.ndarray, others: np.ndarray):
     """Differences scaled to size one (by a power of two, exactly) and the same as exact integers."""
+    base, others = _by_coordinate(base), _by_coordinate(others)
     with np.errstate(over="ignore"):
         differences = others - base[:, None, :]
-    largest = np.abs(differences).max(initial=0.0)
+    largest = max(differences.max(initial=0.0), -differences.min(initial=0.0))
     if not np.isfinite(largest):
         raise InputError("coordinates differ by more than the largest float; divide all of them by 2**60.")
-    scaled = np.ldexp(differences, -int(np.frexp(largest)[1])) if largest else differences
+    if largest:
+        exponent = -int(np.frexp(largest)[1])
+        if exponent < 1000:
+            differences *= np.ldexp(1.0, exponent)
+        else:  # the power itself would overflow
+            differences = np.ldexp(differences, exponent)
 
     def exact_rows(rows):
         b, o = as_integers(base[rows], others[rows])
         return o - b[:, None, :]
 
-    return scaled, exact_rows
+    return differences, exact_rows
+
+
+def _by_coordinate(array: np.ndarray) -> np.ndarray:
+    """The same array, laid out so that each coordinate of all rows is contiguous: long loops for NumPy."""
+    return np.moveaxis(np.ascontiguousarray(np.moveaxis(array, 0, -1)), -1, 0)
 
 
 def _orientation(d, minus):

@@ -49,7 +49,9 @@ def sk0(P: DelaunayShape | Shape, side: str = "inner") -> Skeleton:
     if not isinstance(P, DelaunayShape):
         P = delaunay_shape(P)
     keep = P.inner if side == "inner" else ~P.inner
-    return dual_complex(P.tessellation, keep, cut=P.boundary_rows(), rays=side == "outer")
+    # Only rays can lead through the boundary without leaving the kept simplices.
+    cut = P.boundary_rows() if side == "outer" else None
+    return dual_complex(P.tessellation, keep, cut=cut, rays=side == "outer")
 
 
 def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:

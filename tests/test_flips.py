@@ -1,0 +1,60 @@
+"""Edge flips bring any triangulation of a convex region back to Delaunay, exactly."""
+
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+from polyskel_lite import _triangulate
+from polyskel_lite._flips import _flip, flip_to_delaunay
+from polyskel_lite.errors import TessellationError
+from polyskel_lite.predicates import orientation
+
+
+def spoiled(t: psl.Tessellation, tries: int, seed: int):
+    """The tessellation after random flips of convex quadrilaterals."""
+    triangles, neighbors = t.simplices.copy(), t.neighbors.copy()
+    rng = np.random.default_rng(seed)
+    done = 0
+    for _ in range(tries):
+        s, i = int(rng.integers(len(triangles))), int(rng.integers(3))
+        r = int(neighbors[s, i])
+        if r < 0:
+            continue
+        a, b, c = np.roll(triangles[s], -i)
+        d = triangles[r, neighbors[r].tolist().index(s)]
+        if (orientation(t.points[[[a, b, d], [a, d, c]]]) > 0).all():
+            assert _flip(triangles, neighbors, s, r)
+            done += 1
+    assert done > tries / 10
+    return triangles, neighbors
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_flips_are_undone(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.random((120, 2)) if seed % 2 else rng.integers(0, 12, (90, 2)).astype(float)
+    t = psl.delaunay(np.unique(points, axis=0))
+    triangles, neighbors = spoiled(t, 400, seed)
+    assert "inside" in _triangulate.problem(t.points, triangles, neighbors)
+    repaired = flip_to_delaunay(t.points, triangles, neighbors)
+    assert _triangulate.problem(t.points, *repaired) == ""
+    if seed % 2:  # no four samples on a circle: only one tessellation
+        assert np.array_equal(_triangulate._canonical(*repaired)[0], t.simplices)
+
+
+def test_a_wrong_tessellation_of_qhull_is_repaired_without_starting_again(monkeypatch):
+    points = np.random.default_rng(3).random((200, 2))
+    right = psl.delaunay(points)
+    monkeypatch.setattr(_triangulate, "_qhull", lambda _: spoiled(right, 300, 1))
+    monkeypatch.setattr(_triangulate, "incremental_delaunay", pytest.fail)
+    assert np.array_equal(psl.delaunay(points).simplices, right.simplices)
+
+
+def test_what_is_no_triangulation_is_left_to_the_check(monkeypatch):
+    points = np.array([(0.0, 0.0), (1.0, -1.0), (2.0, 0.0), (1.0, 3.0)])
+    twice = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3]]), np.array([[-1, 1, -1], [-1, 2, 0], [-1, 1, -1]])
+    assert _triangulate.problem(points, *twice)
+    assert flip_to_delaunay(points, *twice)[0].shape == (3, 3)
+    monkeypatch.setattr(_triangulate, "_candidates", lambda _: [lambda: twice])
+    with pytest.raises(TessellationError, match="passed the exact check"):
+        psl.delaunay(points)
