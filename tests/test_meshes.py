@@ -1,5 +1,6 @@
 """Triangle meshes as shapes: what is refused, and exact signs against rational arithmetic."""
 
+import time
 from fractions import Fraction
 from itertools import product
 
@@ -9,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polyskel_lite import DuplicatePointError, InputError, Shape, ShapeError
+from polyskel_lite._boxes import self_overlaps
 from polyskel_lite.triangles import (
     distance_to_triangles,
     locate_in_mesh,
@@ -302,3 +304,27 @@ def test_distance_to_triangles_is_the_least_of_all():
     spacing = np.sqrt(((t[1:] - t[0]) ** 2).sum(axis=1)).max() / 59
     assert (every[0] <= nearest + 1e-12).all()
     assert (nearest <= every[0] + spacing).all()
+
+
+@pytest.mark.parametrize("spread", [0.0, 1.5])
+def test_self_overlaps_are_all_and_only_once(spread):
+    random = np.random.default_rng(8)
+    low = random.integers(0, 40, (300, 3)) / 4  # many boxes touch exactly
+    high = low + np.round(10 ** random.normal(0, spread, (300, 3)) * 4) / 4
+    found = [(i, j) for a, b in self_overlaps(low, high) for i, j in zip(a.tolist(), b.tolist(), strict=True)]
+    every = (low[:, None] <= high[None]).all(axis=2)
+    assert sorted(found) == list(map(tuple, np.argwhere(np.triu(every & every.T, 1)).tolist()))
+
+
+def test_twenty_thousand_faces_take_seconds():
+    """The brute force would look at 200 million pairs."""
+    t, u = np.meshgrid(*[np.arange(100) * 2 * np.pi / 100] * 2, indexing="ij")
+    ring = 3 + np.cos(u)
+    points = np.stack([ring * np.cos(t), ring * np.sin(t), np.sin(u)], axis=-1).reshape(-1, 3)
+    k = np.arange(10_000).reshape(100, 100)
+    right, up, both = np.roll(k, -1, axis=0), np.roll(k, -1, axis=1), np.roll(k, -1, axis=(0, 1))
+    faces = np.stack([np.stack([k, right, both], axis=-1), np.stack([k, both, up], axis=-1)]).reshape(-1, 3)
+    begin = time.process_time()
+    shape = Shape(points, faces)
+    assert time.process_time() - begin < 8  # about one second on an idle machine
+    assert shape.betti() == (1, 1, 0)
