@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,8 +74,10 @@ class Hierarchy:
         >>> h.kept(float("-inf")).tolist() == h.P.inner.tolist()
         True
         """
-        if np.isnan(threshold):
-            raise InputError("threshold is not a number; pass an angle in radians, such as pi / 3.")
+        if not isinstance(threshold, Real) or np.isnan(threshold):
+            raise InputError(
+                f"threshold is {threshold!r}, not a number; pass an angle in radians, such as pi / 3."
+            )
         keep = np.zeros_like(self.P.inner)
         keep[self.simplices] = self.level >= threshold
         return keep

@@ -183,9 +183,10 @@ def test_bad_names(arguments, message):
         psl.hierarchy(psl.datasets.load("gear"), **arguments)
 
 
-def test_threshold_must_be_a_number():
+@pytest.mark.parametrize("threshold", [np.nan, "pi", None])
+def test_threshold_must_be_a_number(threshold):
     with pytest.raises(psl.InputError, match="not a number"):
-        psl.hierarchy(psl.datasets.load("gear")).skeleton(np.nan)
+        psl.hierarchy(psl.datasets.load("gear")).skeleton(threshold)
 
 
 def test_branches_of_a_tree_and_a_loop():
