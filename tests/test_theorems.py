@@ -157,3 +157,21 @@ def test_segment_side_sees_a_crossing():
     assert segment_side(point(1, 1), point(3, 3), segments) == 1
     assert segment_side(point(1, 1), point(5, 1), segments) is None
     assert segment_side(point(5, 1), point(6, 7), segments) == -1
+
+
+@pytest.mark.parametrize("batch", range(4))
+def test_the_condition_of_theorem_2_is_exact(batch):
+    """Beyond the paper: with the boundary in Del(E), equality on both sides means strictly Gabriel."""
+    rng = np.random.default_rng(batch)
+    met = {True: 0, False: 0}
+    for _ in range(60):
+        shape = psl.conform(psl.Shape.from_rings(grid_region(rng, size=3)), to="delaunay")
+        P = psl.delaunay_shape(shape)
+        equal = True
+        for side in ("inner", "outer"):
+            a, b = psl.sk0(P, side), psl.sk2(shape, P.tessellation, side)
+            pairs = zip((a.simplices, a.edges, a.rays), (b.simplices, b.edges, b.rays), strict=True)
+            equal &= all(np.array_equal(x, y) for x, y in pairs)
+        assert equal == P.is_gabriel()
+        met[equal] += 1
+    assert min(met.values()) > 0
