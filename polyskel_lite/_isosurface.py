@@ -157,7 +157,9 @@ def spread(field, points: np.ndarray, weights: np.ndarray, n: int, spacing: floa
         once = np.unique(nearest, return_index=True)[1]
         centers[once] = points[nearest[once]]
     samples, moved = project(field, centers, 0.2 * spacing, rounds=8)
-    return samples[moved < 1e-3 * spacing]
+    samples = samples[moved < 1e-3 * spacing]
+    # Samples on a sphere up to rounding are the one thing that Qhull cannot do: leave it by a little more.
+    return samples + 1e-5 * spacing * random.uniform(-1, 1, samples.shape)
 
 
 def _thin(points, n, distance, random) -> np.ndarray:

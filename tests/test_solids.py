@@ -178,3 +178,18 @@ def test_what_cannot_be_contained_is_refused():
         psl.conform(cube, to="gabriel", limit=100)
     assert error.value.missing.tolist() == list(range(12))
     assert len(psl.conform(cube, to="delaunay").points) == 8
+
+
+def test_right_angles_and_thin_walls_need_no_vertex():
+    """Cocircular corners: flips choose among the diagonals. Thin walls: flips, too."""
+    trimesh = pytest.importorskip("trimesh")
+    for mesh in (
+        trimesh.creation.box((3, 2, 1)),
+        trimesh.creation.annulus(1, 1.05, 4, sections=32),
+        trimesh.creation.box((10, 10, 0.01)),
+    ):
+        shape = psl.Shape.from_mesh(mesh.vertices, mesh.faces)
+        fixed = psl.conform(shape, to="delaunay")
+        assert len(fixed.points) == len(shape.points)
+        assert fixed.betti() == psl.sk0(fixed).betti() == shape.betti()
+        assert fixed.volume() == pytest.approx(shape.volume(), rel=1e-9)
