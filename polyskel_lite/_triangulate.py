@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from scipy.spatial import Delaunay, QhullError
 
 from ._cocircular import with_segments
-from ._flips import flip_to_delaunay
 from ._incremental import incremental_delaunay
+from ._mending import mended
 from .errors import TessellationError
 from .predicates import in_ball, orientation
-
-_NOT_EMPTY = "a sample is inside a Delaunay ball"
 
 
 def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
@@ -43,9 +43,6 @@ def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[n
             reason = "all simplices are flat"
             continue
         reason = problem(points, simplices, neighbors)
-        if reason == _NOT_EMPTY and dimension == 2:
-            simplices, neighbors = flip_to_delaunay(points, simplices, neighbors)
-            reason = problem(points, simplices, neighbors)
         if not reason:
             if facets is not None and dimension == 2:
                 simplices, neighbors = with_segments(points, simplices, neighbors, facets)
@@ -60,7 +57,10 @@ def _candidates(points):
     centred = points - (points.min(axis=0) + points.max(axis=0)) / 2
     scale = np.abs(centred).max()
     centred = centred / scale if scale > 0 else centred
-    yield lambda: _orient(points, *_qhull(centred))
+    quick = cache(lambda: _qhull(centred))
+    yield lambda: _orient(points, *map(np.copy, quick()))
+    if points.shape[1] == 2:
+        yield lambda: mended(points, *quick())
     yield lambda: incremental_delaunay(points)
 
 
@@ -140,7 +140,7 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) ->
     if (
         in_ball(_corners(points, simplices[first]), points[simplices[second, back]], positive=True) > 0
     ).any():
-        return _NOT_EMPTY
+        return "a sample is inside a Delaunay ball"
     # Both are positive, so they are on different sides of their facet if they see it in opposite senses.
     near, far = (
         simplices[first[:, None], _FACETS[size][local]],

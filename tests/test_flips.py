@@ -6,6 +6,8 @@ import pytest
 import polyskel_lite as psl
 from polyskel_lite import _triangulate
 from polyskel_lite._flips import _flip, flip_to_delaunay
+from polyskel_lite._incremental import incremental_delaunay
+from polyskel_lite._mending import mended
 from polyskel_lite.errors import TessellationError
 from polyskel_lite.predicates import orientation
 
@@ -58,3 +60,26 @@ def test_what_is_no_triangulation_is_left_to_the_check(monkeypatch):
     monkeypatch.setattr(_triangulate, "_candidates", lambda _: [lambda: twice])
     with pytest.raises(TessellationError, match="passed the exact check"):
         psl.delaunay(points)
+
+
+@pytest.mark.parametrize("name", ["horse", "gear", "lake", "kangaroo"])
+def test_samples_on_straight_sides_are_mended(name, monkeypatch):
+    """Qhull turns needles along the hull inside out there; the slow exact method is not needed."""
+    points = psl.datasets.load(name).resample(3000).points
+    right = incremental_delaunay(points)
+    monkeypatch.setattr(_triangulate, "incremental_delaunay", pytest.fail)
+    assert _triangulate.problem(points, *right) == ""
+    assert np.array_equal(psl.delaunay(points).simplices, _triangulate._canonical(*right)[0])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_nearly_collinear_samples(seed, monkeypatch):
+    rng = np.random.default_rng(seed)
+    along = np.sort(rng.random(300))
+    sides = [np.stack([along, np.full(300, float(k))], axis=1) for k in range(2)]
+    turn = np.linalg.qr(rng.normal(size=(2, 2)))[0]
+    points = np.unique(np.concatenate(sides) @ turn, axis=0)
+    t = psl.delaunay(points)
+    assert _triangulate.problem(points, t.simplices, t.neighbors) == ""
+    triangles, _ = mended(points, *_triangulate._qhull(points))
+    assert len(triangles) in (0, len(t.simplices))
