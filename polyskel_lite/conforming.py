@@ -49,7 +49,7 @@ def missing_facets(
     return np.flatnonzero(missing)
 
 
-def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shape:
+def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Shape:
     """Add boundary points until every facet is in the strict Gabriel graph, or in the Delaunay tessellation.
 
     In 3D edges are flipped first, which often suffices; see `polyskel_lite.conforming_solids`.
@@ -57,8 +57,9 @@ def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shap
     Parameters
     ----------
     shape : Shape
-    to : "gabriel" or "delaunay"
-        "gabriel" makes Theorems 1 and 2 apply (in 2D), "delaunay" makes Sk0 defined.
+    to : "gabriel" or "delaunay", optional
+        "gabriel", the default in 2D, makes Theorems 1 and 2 apply. "delaunay" makes Sk0 defined; it is the
+        default in 3D, where right triangles in one plane can keep "gabriel" out of reach.
     limit : int, optional
         Give up beyond this many vertices; by default 10,000 and ten times as many as there are (in 3D:
         2,000 and four times as many).
@@ -94,6 +95,7 @@ def conform(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Shap
     (1, 0)
     """
     check_shape(shape)
+    to = to or ("gabriel" if shape.dimension == 2 else "delaunay")
     _check_name(to)
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)

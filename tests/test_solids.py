@@ -193,3 +193,8 @@ def test_right_angles_and_thin_walls_need_no_vertex():
         assert len(fixed.points) == len(shape.points)
         assert fixed.betti() == psl.sk0(fixed).betti() == shape.betti()
         assert fixed.volume() == pytest.approx(shape.volume(), rel=1e-9)
+
+
+def test_by_default_solids_conform_to_delaunay():
+    shape = stretched(solid("torus"), 3.0)
+    assert not len(psl.missing_facets(psl.conform(shape)))
