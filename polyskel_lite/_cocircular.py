@@ -24,7 +24,8 @@ def with_segments(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarr
     """
     edges = np.sort(simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     rows = np.sort(facets, axis=1)
-    absent = ~np.isin(rows @ (len(points), 1), edges @ (len(points), 1))
+    keys, wanted = np.sort(edges @ (len(points), 1)), rows @ (len(points), 1)
+    absent = keys[np.searchsorted(keys, wanted).clip(max=len(keys) - 1)] != wanted
     if not absent.any():
         return simplices, neighbors
     missing, facets = set(map(tuple, rows[absent].tolist())), list(map(tuple, rows.tolist()))

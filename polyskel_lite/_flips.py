@@ -52,6 +52,10 @@ def _wrong(points, triangles, neighbors, rows):
     at, local = np.nonzero(neighbors[rows] >= 0)
     first = rows[at]
     second = neighbors[first, local]
+    asked = np.zeros(len(triangles), dtype=bool)
+    asked[rows] = True
+    once = (first < second) | ~asked[second]
+    first, second = first[once], second[once]
     back = (neighbors[second] == first[:, None]).argmax(axis=1)
     inside = in_ball(points[triangles[first]], points[triangles[second, back]], positive=True) > 0
     return zip(first[inside].tolist(), second[inside].tolist(), strict=True)
