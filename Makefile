@@ -3,10 +3,11 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 JOBS   ?= 2
+LARGEST ?= 200000
 FIRST  := notebooks/01_introduction.ipynb
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint unit chapters lab figures run lock clean
+.PHONY: help book test lint unit chapters lab figures bench run lock clean
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
@@ -51,6 +52,9 @@ lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
 figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to figures/
 	@echo "Drawing the paper's figures into figures/ ..."
 	@$(BIN)/python -m polyskel_lite.figures figures/
+
+bench: $(VENV)/.installed  ## measure every stage against scipy's Delaunay (see benchmarks/README.md)
+	@$(BIN)/python benchmarks/stages.py --largest $(LARGEST)
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py

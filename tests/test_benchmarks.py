@@ -1,0 +1,110 @@
+"""The benchmarks run, on tiny sizes; nothing here looks at a clock."""
+
+import csv
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+
+FOLDER = Path(__file__).resolve().parent.parent / "benchmarks"
+
+
+@pytest.fixture
+def module(monkeypatch):
+    monkeypatch.syspath_prepend(FOLDER)
+
+    def load(name):
+        spec = importlib.util.spec_from_file_location(f"benchmark_{name}", FOLDER / f"{name}.py")
+        loaded = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(loaded)
+        return loaded
+
+    return load
+
+
+def rows_of(path: Path) -> list[dict]:
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_inputs_are_what_they_say(module):
+    inputs = module("inputs")
+    curve, horse = inputs.lobed_curve(500), inputs.outline(500)
+    assert curve.betti() == horse.betti() == (1, 0)
+    assert len(curve.points) == len(horse.points) == 500
+    steps = np.sqrt((np.diff(curve.segments, axis=1)[:, 0] ** 2).sum(axis=1))
+    # Chords of equal arcs: shorter where a lobe turns, never longer than the others.
+    assert steps.max() < 1.05 * np.median(steps)
+    tessellation = psl.delaunay(inputs.bumpy_samples(400))
+    P = psl.DelaunayShape(tessellation, inputs.bumpy_inside(tessellation))
+    assert P.betti() == psl.sk0(P).betti() == (1, 0, 0)
+
+
+@pytest.mark.parametrize("numba", [True, False])
+@pytest.mark.parametrize(
+    ("name", "n"), [("curve", 300), ("outline", 300), ("bumpy sphere", 300), ("vertebra", 2011)]
+)
+def test_every_stage_of_one_measurement(name, n, numba):
+    command = [sys.executable, FOLDER / "stages.py", "--one", name, str(n), str(int(numba)), "--repeats", "1"]
+    rows = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+    assert rows[0]["stage"] == "scipy"
+    assert float(rows[0]["ratio"]) == 1
+    assert {(row["input"], row["n"], row["numba"]) for row in rows} == {(name, n, int(numba))}
+
+
+def test_the_table_is_written(module, monkeypatch, tmp_path):
+    stages = module("stages")
+    monkeypatch.setattr(stages, "SIZES", {"curve": (100, 10_000), "bumpy sphere": (100,)})
+    monkeypatch.setattr(stages, "PAPER", ())
+    stages.main(["--largest", "100", "--repeats", "1", "--out", str(tmp_path)])
+    rows = rows_of(tmp_path / "results.csv")
+    assert {(row["input"], row["n"], row["numba"]) for row in rows} == {
+        (name, "100", numba) for name in ("curve", "bumpy sphere") for numba in "01"
+    }
+    assert "numpy" in json.loads((tmp_path / "machine.json").read_text())
+
+
+def test_peers_without_and_with_an_interpreter(module, tmp_path):
+    peers = module("peers")
+    peers.main(["--small", "--out", str(tmp_path)])
+    rows = rows_of(tmp_path / "peers.csv")
+    assert [(row["shape"], row["method"]) for row in rows] == [
+        ("horse", "branch"),
+        ("torus", "surface"),
+        ("torus", "wireframe"),
+    ]
+    assert all(row["found"] == row["loops"] for row in rows)
+    # scikit-image is in the project's own environment; a peer that is missing is a row that says so.
+    pytest.importorskip("skimage")
+    _, loops, data = peers.region("gear", 80)
+    assert peers.theirs(sys.executable, "scikit-image skeletonize", data)["found"] == loops == 1
+    missing = peers.theirs(sys.executable, "kimimaro skeletonize", data)
+    assert missing["found"] == "" or missing["seconds"] >= 0
+    assert peers.theirs(sys.executable, "scikit-image skeletonize", data, limit=0.01)["note"].startswith(
+        "stopped"
+    )
+
+
+def test_numbers_of_graphs_and_pixels(module):
+    runner = module("peer_runner")
+    triangle = np.array([(0, 1), (1, 2), (2, 0), (0, 1), (3, 3)])
+    assert runner.graph_numbers(4, triangle) == (1, 2)
+    assert runner.line_numbers([np.array([(0, 0), (1, 0), (1, 1)]), np.array([(1, 1), (0, 0)])]) == (1, 1)
+    pytest.importorskip("skimage")
+    frame = np.zeros((9, 9), dtype=bool)
+    frame[1:5, 1:5], frame[2:4, 2:4], frame[7, 7] = True, False, True
+    assert runner.cell_numbers(frame) == (1, 2)
+
+
+def test_committed_numbers_have_the_columns(module):
+    stages, peers = module("stages"), module("peers")
+    assert tuple(rows_of(FOLDER / "results.csv")[0]) == stages.COLUMNS
+    assert tuple(rows_of(FOLDER / "peers.csv")[0]) == peers.COLUMNS
+    pinned = (FOLDER / "peers.txt").read_text().split()
+    assert all(line.count("==") == 1 and not line.startswith("-") for line in pinned)
