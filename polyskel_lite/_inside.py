@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ._cut_edges import with_cut_edges
 from .complexes import Skeleton, dual_complex, outward_normals
 from .errors import InputError
 from .graphs import Tessellation, delaunay
@@ -49,35 +50,7 @@ class VoronoiInShape:
         return dual_complex(self.tessellation, self.inside, cut=crossed, rays=self.side < 0)
 
     def intersection(self) -> Skeleton:
-        sk2 = self.elements()
-        number = np.where(self.inside, np.cumsum(self.inside) - 1, -1)
-        sides = self.tessellation.facet_table[1]
-        points, radii, edges, rays, ray_vertices = [], [], [], [], []
-
-        def add(row, t):
-            points.append(self._at(row, t))
-            sample = self.tessellation.points[self.tessellation.facets()[row, 0]]
-            radii.append(np.hypot(*(points[-1] - sample)))
-            return len(sk2.vertices) + len(points) - 1
-
-        for row in np.flatnonzero(self.partial).tolist():
-            first, second = sides[row].tolist()
-            for t0, t1 in self.pieces[row]:
-                begin = int(number[first]) if t0 == 0 else add(row, t0)
-                if t1 == 1 and second < 0:
-                    rays.append(self._direction(row))
-                    ray_vertices.append(begin)
-                else:
-                    edges.append((begin, int(number[second]) if t1 == 1 else add(row, t1)))
-        return Skeleton(
-            vertices=np.concatenate([sk2.vertices, np.reshape(points, (-1, 2))]),
-            radii=np.concatenate([sk2.radii, radii]),
-            simplices=np.concatenate([sk2.simplices, np.full(len(points), -1)]),
-            edges=np.concatenate([sk2.edges, np.reshape(edges, (-1, 2)).astype(np.int64)]),
-            rays=np.concatenate([sk2.rays, np.reshape(rays, (-1, 2))]),
-            ray_vertices=np.concatenate([sk2.ray_vertices, np.array(ray_vertices, dtype=np.int64)]),
-            tessellation=self.tessellation,
-        )
+        return with_cut_edges(self.elements(), self.inside, self.pieces, self._at)
 
     def _vertices_inside(self) -> np.ndarray:
         centers, error = self.tessellation.circumcenters, self.error
@@ -118,7 +91,6 @@ class VoronoiInShape:
         starts_inside = self.inside[sides[:, 0]]
         whole = starts_inside & ~doubt
         whole[rows] = False
-        partial = np.zeros(len(sides), dtype=bool)
         order = np.lexsort((times, rows))
         rows, times = rows[order], times[order]
         for row in np.unique(rows[~doubt[rows]]).tolist():
@@ -126,15 +98,12 @@ class VoronoiInShape:
             cuts = [0.0, *times[begin:end].tolist(), 1.0]
             # The side changes at every crossing.
             self.pieces[row] = list(pairwise(cuts))[0 if starts_inside[row] else 1 :: 2]
-            partial[row] = True
         for row in np.flatnonzero(doubt).tolist():
             near = ((low[row] <= box_high) & (box_low <= high[row])).all(axis=1)
             pieces = clip_exactly(self.segments, *self._exact_ends(row), self.side, near)
             whole[row] = pieces == [(0, 1)]
             if pieces and not whole[row]:
                 self.pieces[row] = pieces
-                partial[row] = True
-        self.partial = partial
         return ~whole
 
     def _meeting_boxes(self):

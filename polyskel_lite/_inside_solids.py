@@ -6,11 +6,13 @@ its error of the boundary is decided again with rational numbers.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
 
+from ._cut_edges import with_cut_edges
 from ._polygons import Polygons
 from ._rational_space import between, clip_rational, dot, exact, locate_rational, minus, rational_circumcenter
 from .complexes import Skeleton, dual_complex, outward_normals
@@ -52,38 +54,10 @@ class VoronoiInSolid:
         if not pierced.any():
             return skeleton
         kept = [p for p, bad in zip(skeleton.polygons, pierced, strict=True) if not bad]
-        return _replace(skeleton, polygons=Polygons.of(kept))
+        return replace(skeleton, polygons=Polygons.of(kept))
 
     def intersection(self) -> Skeleton:
-        sk2 = self.elements()
-        number = np.where(self.inside, np.cumsum(self.inside) - 1, -1)
-        sides = self.tessellation.facet_table[1]
-        points, radii, edges, rays, ray_vertices = [], [], [], [], []
-
-        def add(row, t):
-            points.append(self._at(row, t))
-            sample = self.tessellation.points[self.tessellation.facets()[row, 0]]
-            radii.append(np.sqrt(((points[-1] - sample) ** 2).sum()))
-            return len(sk2.vertices) + len(points) - 1
-
-        for row, pieces in sorted(self.pieces.items()):
-            first, second = sides[row].tolist()
-            for t0, t1 in pieces:
-                begin = int(number[first]) if t0 == 0 else add(row, t0)
-                if t1 == 1 and second < 0:
-                    rays.append(outward_normals(self.tessellation, np.array([row]))[0])
-                    ray_vertices.append(begin)
-                else:
-                    edges.append((begin, int(number[second]) if t1 == 1 else add(row, t1)))
-        return _replace(
-            sk2,
-            vertices=np.concatenate([sk2.vertices, np.reshape(points, (-1, 3))]),
-            radii=np.concatenate([sk2.radii, radii]),
-            simplices=np.concatenate([sk2.simplices, np.full(len(points), -1)]),
-            edges=np.concatenate([sk2.edges, np.reshape(edges, (-1, 2)).astype(np.int64)]),
-            rays=np.concatenate([sk2.rays, np.reshape(rays, (-1, 3))]),
-            ray_vertices=np.concatenate([sk2.ray_vertices, np.array(ray_vertices, dtype=np.int64)]),
-        )
+        return with_cut_edges(self.elements(), self.inside, self.pieces, self._at)
 
     def _vertices_inside(self) -> np.ndarray:
         centers, error = self.tessellation.circumcenters, self.error
@@ -233,11 +207,6 @@ class VoronoiInSolid:
             return False
         x = between(u, v, start / (start - end))
         return all(power(x, exact(s)) > power(x, p) for s in around)
-
-
-def _replace(skeleton: Skeleton, **changes) -> Skeleton:
-    names = ("vertices", "radii", "simplices", "edges", "polygons", "rays", "ray_vertices", "tessellation")
-    return Skeleton(**{name: changes.get(name, getattr(skeleton, name)) for name in names})
 
 
 def _crossing(ends, triangles, slack):
