@@ -60,7 +60,7 @@ run: $(VENV)/.installed  ## maintainers: run every notebook and store its output
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py
 
 lock: $(VENV)/.installed  ## maintainers: resolve pyproject.toml anew into requirements.lock (needs uv)
-	@uv pip compile pyproject.toml --extra lab --extra book --extra test --universal --python-version 3.11 \
+	@uv pip compile pyproject.toml --extra lab --extra book --extra lite --extra test --universal --python-version 3.11 \
 	  --generate-hashes --no-emit-index-url --no-header -o requirements.lock
 
 clean:  ## remove what the commands above made, except the environment
