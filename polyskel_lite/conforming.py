@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -99,6 +101,70 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
     _check_name(to)
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)
+    for stage in _stages(shape, to, limit):
+        last = stage
+    return Shape(last.points, last.facets) if len(last.points) > len(shape.points) else shape
+
+
+class Stage(NamedTuple):
+    """The boundary on its way into a graph: one round of `conform_stages`.
+
+    Attributes
+    ----------
+    points : (n, 2) float array
+        The vertices so far; those of the rounds before come first.
+    facets : (m, 2) int array
+        The sides so far, oriented.
+    missing : (k,) int array
+        Rows of ``facets`` that are not in the graph; empty in the last stage.
+    corners : (c,) int array
+        The acute corners whose two sides are cut at one distance in this round; the other missing sides
+        are halved.
+    """
+
+    points: np.ndarray
+    facets: np.ndarray
+    missing: np.ndarray
+    corners: np.ndarray
+
+
+def conform_stages(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Iterator[Stage]:
+    """Follow `conform` in the plane round by round, from the given boundary to the last one (section 3.5).
+
+    Parameters
+    ----------
+    shape : Shape
+        In 2D.
+    to : "gabriel" or "delaunay"
+    limit : int, optional
+        As for `conform`.
+
+    Yields
+    ------
+    Stage
+        The first is ``shape`` itself, the last is ``conform(shape, to)``.
+
+    Raises
+    ------
+    InputError
+        If the shape is in space, or the graph unknown.
+    TessellationError
+        As `conform`, when the round is reached.
+
+    Examples
+    --------
+    >>> acute = Shape.from_rings([[(0, 0), (13, 0), (10 * 3**0.5 / 2, 5)]])
+    >>> [(len(stage.points), len(stage.missing), len(stage.corners)) for stage in conform_stages(acute)]
+    [(3, 1, 2), (7, 0, 0)]
+    """
+    check_shape(shape)
+    _check_name(to)
+    if shape.dimension != 2:
+        raise InputError("the rounds of refinement are shown for shapes in the plane; use conform(shape).")
+    return _stages(shape, to, limit)
+
+
+def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
     points, facets = list(map(tuple, shape.points.tolist())), list(map(tuple, shape.facets.tolist()))
     acute = _acute_corners(shape)
     limit = 10_000 + 10 * len(points) if limit is None else limit
@@ -110,10 +176,11 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
         missing = rows < 0
         if to == "gabriel":
             missing[~missing] = ~gabriel_mask(tessellation, closed=True, rows=rows[~missing])
-        if not missing.any():
-            break
-        cuts: dict[int, np.ndarray] = {}
         corners = acute & set(current[missing].ravel().tolist())
+        yield Stage(array, current, np.flatnonzero(missing), np.array(sorted(corners), dtype=np.int64))
+        if not missing.any():
+            return
+        cuts: dict[int, np.ndarray] = {}
         for corner in sorted(corners):
             _cut_corner(corner, array, current, cuts)
         acute -= corners
@@ -128,7 +195,6 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
                 f"more than {limit} vertices are needed, and the boundary near ({where}) is still not in the "
                 f"{to} graph: the shape is very thin there. Widen it, or raise the limit."
             )
-    return Shape(array, current) if len(points) > len(shape.points) else shape
 
 
 def _insert(points, facets, cuts) -> None:

@@ -1,10 +1,13 @@
 """Refinement and Delaunay shapes."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from oracle import grid_region, rational, strictly_gabriel
 
 import polyskel_lite as psl
+from polyskel_lite.conforming import conform_stages
 
 
 def star(rng, n, spike):
@@ -41,6 +44,37 @@ def test_strict_gabriel_by_definition_after_refinement():
 def test_the_30_degree_corner_on_which_halving_loops():
     shape = psl.Shape.from_rings([[(0, 0), (13, 0), (10 * np.cos(np.pi / 6), 5)]])
     assert len(psl.conform(shape).points) < 20
+
+
+@pytest.mark.parametrize("to", ["delaunay", "gabriel"])
+@pytest.mark.parametrize("seed", range(8))
+def test_stages_lead_from_the_shape_to_the_refined_one(seed, to):
+    rng = np.random.default_rng(seed)
+    shape = psl.Shape.from_rings(grid_region(rng, size=4))
+    stages = list(conform_stages(shape, to))
+    assert (stages[0].points == shape.points).all()
+    assert (stages[0].facets == shape.facets).all()
+    assert stages[0].missing.tolist() == psl.missing_facets(shape, of=to).tolist()
+    final = psl.conform(shape, to=to)
+    assert (stages[-1].points == final.points).all()
+    assert (stages[-1].facets == final.facets).all()
+    for before, after in pairwise(stages):
+        # Every state is a closed boundary of its own, and the numbers told are those of `missing_facets`.
+        state = psl.Shape(after.points, after.facets)
+        assert after.missing.tolist() == psl.missing_facets(state, of=to).tolist()
+        assert (after.points[: len(before.points)] == before.points).all()
+        assert len(after.points) > len(before.points)
+    assert [len(stage.missing) == 0 for stage in stages] == [False] * (len(stages) - 1) + [True]
+
+
+def test_stages_are_for_the_plane_and_for_known_graphs():
+    tip = psl.Shape(
+        [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 6)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    with pytest.raises(psl.InputError, match="in the plane"):
+        conform_stages(tip)
+    with pytest.raises(psl.InputError, match="unknown graph 'voronoi'"):
+        conform_stages(psl.datasets.load("gear"), to="voronoi")
 
 
 def halving_alone(shape, rounds):
