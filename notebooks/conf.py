@@ -37,6 +37,9 @@ html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
+html_domain_indices = False  # sphinx-proof's index lists labels, which say nothing to a reader
+html_context = {"default_mode": "auto"}  # light or dark as the reader's system says
+templates_path = ["_templates"]
 html_copy_source = False
 html_theme_options = {"navbar_persistent": [], "show_toc_level": 2, "use_download_button": False}
 if "repository" in BOOK["book"]:
@@ -48,3 +51,13 @@ if "repository" in BOOK["book"]:
     }
 
 globals().update(BOOK.get("sphinx", {}).get("config", {}))
+
+
+def references_as_list(app, pagename, templatename, context, doctree):
+    """Give each reference the role that its list asks for; docutils writes one that has been withdrawn."""
+    if "body" in context:
+        context["body"] = context["body"].replace('role="doc-biblioentry"', 'role="listitem"')
+
+
+def setup(app):
+    app.connect("html-page-context", references_as_list)
