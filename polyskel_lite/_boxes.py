@@ -54,7 +54,7 @@ def self_overlaps(low: np.ndarray, high: np.ndarray) -> Iterator[tuple[np.ndarra
 def _in_one_cell(first: np.ndarray, last: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Pairs of boxes with a common cell, from the first and last cell of each box on the three axes."""
     counts = last - first + 1
-    number = counts.prod(axis=1)
+    number = counts.prod(axis=1).astype(np.intp)
     box = np.repeat(np.arange(len(first)), number)
     rank = np.arange(number.sum()) - np.repeat(np.cumsum(number) - number, number)
     cells = np.empty((len(box), 3), dtype=np.int64)

@@ -99,7 +99,7 @@ def dual_polygons(simplices: np.ndarray, neighbors: np.ndarray, number: np.ndarr
     position = _positions(edge, owner, following, len(kept))
     first = np.flatnonzero(np.diff(edge, prepend=-1))
     begin, corners = first, np.empty(len(edge), dtype=np.int64)
-    length = np.zeros(len(first), dtype=np.int64)
+    length = np.zeros(len(first), dtype=np.intp)
     # Step around all edges at once, each from its first tetrahedron.
     at, active = first.copy(), np.arange(len(first))
     while len(active):
@@ -118,7 +118,7 @@ def _surrounded(edge, owner, following):
     size = np.diff(first, append=len(edge))
     closed = np.minimum.reduceat(following, first) >= 0
     keep = np.repeat(closed, size)
-    edge = np.repeat(np.arange(np.count_nonzero(closed)), size[closed])
+    edge = np.repeat(np.arange(np.count_nonzero(closed), dtype=np.int64), size[closed])
     owner, following = owner[keep], following[keep]
     # Edge numbers are small, so that both fit into one key of 63 bits: sorting one is many times faster.
     order = np.argsort(edge * (owner.max(initial=0) + 1) + owner)

@@ -10,6 +10,7 @@ import numpy as np
 from .errors import InputError, ShapeError
 from .predicates import orientation
 from .segments import locate
+from .topology import occurrences
 
 
 def near(points: np.ndarray) -> str:
@@ -30,7 +31,7 @@ def as_facets(facets, n: int, corners: int = 2) -> np.ndarray:
 
 
 def check_closed(n: int, facets: np.ndarray) -> None:
-    begins, ends = np.bincount(facets[:, 0], minlength=n), np.bincount(facets[:, 1], minlength=n)
+    begins, ends = occurrences(facets[:, 0], n), occurrences(facets[:, 1], n)
     bad = np.flatnonzero((begins != 1) | (ends != 1))
     if len(bad):
         v = bad[0]

@@ -157,7 +157,7 @@ _FACETS = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3,
 
 def _corners(points, simplices):
     """The same as ``points[simplices]``, each coordinate contiguous as the predicates like it."""
-    return np.take(points.T, simplices.T, axis=1).transpose(2, 1, 0)
+    return np.take(points.T, simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
 
 
 def _opposite(near, far):

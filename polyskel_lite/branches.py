@@ -8,6 +8,7 @@ import numpy as np
 
 from .complexes import Skeleton
 from .errors import InputError
+from .topology import occurrences
 
 if TYPE_CHECKING:
     import networkx
@@ -47,7 +48,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     n, k = len(skeleton.vertices), len(sheets)
     wires = skeleton.edges[free_edges(skeleton)]
     ends = np.where(node[wires] >= 0, n + node[wires], wires)
-    degree = np.bincount(ends.ravel(), minlength=n + k)
+    degree = occurrences(ends, n + k)
     # Where branches begin: everything but the inside of a chain; a sheet always.
     stop = (degree[:n] != 2) & (node < 0)
     graph = networkx.MultiGraph()

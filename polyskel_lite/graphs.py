@@ -51,7 +51,9 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         # Laid out so that each coordinate of all corners is contiguous: long loops for NumPy.
-        return _circumballs(np.take(self.points.T, self.simplices.T, axis=1).transpose(2, 1, 0))
+        return _circumballs(
+            np.take(self.points.T, self.simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
+        )
 
     @property
     def circumcenters(self) -> np.ndarray:

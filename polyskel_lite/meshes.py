@@ -7,7 +7,7 @@ import numpy as np
 from ._rings import near
 from .errors import ShapeError
 from .predicates import as_integers
-from .topology import components
+from .topology import components, occurrences
 from .triangles import locate_in_mesh, meeting_faces, shadow_signs
 
 
@@ -59,7 +59,7 @@ def _check_faces(points, faces) -> None:
             f"face {k} (vertices {_name(faces[k])}) near {near(points[faces[k]])} has no area: its corners "
             f"are in one line; remove it and close the gap ({_such(flat.sum(), 'face')})."
         )
-    unused = np.flatnonzero(np.bincount(faces.ravel(), minlength=len(points)) == 0)
+    unused = np.flatnonzero(occurrences(faces, len(points)) == 0)
     if len(unused):
         raise ShapeError(
             f"vertex {unused[0]} at {near(points[unused[:1]])} is in no face; remove it "
@@ -141,7 +141,7 @@ def _check_vertices(points, faces, twins) -> None:
         return
     vertex = np.empty(fans, dtype=np.int64)
     vertex[label] = faces.ravel()
-    bad = np.flatnonzero(np.bincount(vertex, minlength=len(points)) > 1)
+    bad = np.flatnonzero(occurrences(vertex, len(points)) > 1)
     raise ShapeError(
         f"the mesh is not manifold: at vertex {bad[0]} near {near(points[bad[:1]])} two or more surfaces "
         f"touch; give each its own vertex and move them apart ({_such(len(bad), 'vertex', 'vertices')})."

@@ -7,6 +7,7 @@ import numpy as np
 from .errors import InputError, ReconstructionError
 from .graphs import as_tessellation, gabriel
 from .shapes import Shape
+from .topology import occurrences
 
 
 def reconstruct_curve(points) -> Shape:
@@ -69,7 +70,7 @@ def reconstruct_curve(points) -> Shape:
     if not np.isfinite(needed):
         _refuse(points, int(np.argmax(second)), "has fewer than two Gabriel neighbours")
     chosen = edges[lengths <= needed]
-    degree = np.bincount(chosen.ravel(), minlength=len(points))
+    degree = occurrences(chosen, len(points))
     if degree.max() > 2:
         _refuse(
             points, int(np.argmax(degree)), f"has {degree.max()} Gabriel neighbours nearer than {needed:g}"

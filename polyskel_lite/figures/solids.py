@@ -39,8 +39,8 @@ def region(points, simplices) -> DelaunayShape:
 
     Examples
     --------
-    >>> region([(0, 0), (2, 0), (0, 2), (3, 3)], [(0, 1, 2)]).inner.sum()
-    np.int64(1)
+    >>> int(region([(0, 0), (2, 0), (0, 2), (3, 3)], [(0, 1, 2)]).inner.sum())
+    1
     """
     tessellation = delaunay(points)
     wanted = {frozenset(simplex) for simplex in simplices}
