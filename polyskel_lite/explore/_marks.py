@@ -8,6 +8,7 @@ from __future__ import annotations
 import html
 import re
 from dataclasses import dataclass, field, fields
+from functools import lru_cache
 
 import numpy as np
 
@@ -143,18 +144,26 @@ def fragment(layer: Layer, view: View) -> str:
 
 def swatch(layer: Layer) -> str:
     """The entry of one layer in a legend: HTML of a small picture and its label."""
+    filled = bool(len(layer.polygons) or len(layer.circles[0]))
+    dotted = bool(len(layer.points) or kind_of(layer.kind).marker)
+    return _swatch(
+        layer.kind, layer.label, filled, dotted, layer.fill, layer.stroke, layer.width, layer.opacity
+    )
+
+
+@lru_cache(maxsize=256)
+def _swatch(kind, label, filled, dotted, fill, stroke, width, opacity) -> str:
     view = View((0, 0, 3, 1), 30)
-    sample = {"kind": layer.kind, "fill": layer.fill, "width": layer.width, "opacity": layer.opacity}
-    kind = kind_of(layer.kind)
-    if len(layer.polygons) or len(layer.circles[0]):
-        sample |= {"polygons": [[(0.3, 0.1), (2.7, 0.1), (2.7, 0.9), (0.3, 0.9)]], "stroke": layer.stroke}
-    elif len(layer.points) or kind.marker:
+    sample = {"kind": kind, "fill": fill, "stroke": stroke, "width": width, "opacity": opacity}
+    if filled:
+        sample |= {"polygons": [[(0.3, 0.1), (2.7, 0.1), (2.7, 0.9), (0.3, 0.9)]]}
+    elif dotted:
         sample |= {"points": [(1.5, 0.5)]}
     else:
         sample |= {"lines": [[(0, 0.5), (3, 0.5)]]}
     size = 'viewBox="0 0 300 100" width="30" height="10" aria-hidden="true"'
     picture = f"<svg {size}>{fragment(Layer(**sample), view)}</svg>"
-    return f'<span style="margin-right:1.2em;white-space:nowrap">{picture} {words(layer.label)}</span>'
+    return f'<span style="margin-right:1.2em;white-space:nowrap">{picture} {words(label)}</span>'
 
 
 def words(label: str) -> str:
@@ -213,12 +222,16 @@ def _lines(lines, view: View) -> str:
 
 
 def _circles(centers, radii, view: View) -> str:
+    if not len(centers):
+        return ""
     xy, r = view.place(centers), view.length(radii)
     rows = np.column_stack([xy[:, 0] - r, xy[:, 1], r, r, 2 * r, r, r, -2 * r])
     return _fill_in("M%d %da%d %d 0 1 0 %d 0a%d %d 0 1 0 %d 0z", rows)
 
 
 def _arcs(centers, radii, start, end, view: View) -> str:
+    if not len(centers):
+        return ""
     centers, radii = np.asarray(centers, dtype=float).reshape(-1, 2), np.asarray(radii, dtype=float)
     start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     r = view.length(radii)

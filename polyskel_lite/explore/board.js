@@ -31,7 +31,7 @@ function render({ model, el }) {
   let held = -1; // the handle under the pointer
   let moved = false; // a move the kernel has not been told of
   let sent = 0; // when the last one was sent; 0: the kernel has answered
-  let answered = false;
+  let answered = 0; // when the move was sent whose answer the next frame shows
   let serial = 0;
   let frame = 0;
 
@@ -48,20 +48,29 @@ function render({ model, el }) {
     stale.clear();
     knobs.forEach(showHandle);
     if (answered) {
-      answered = false;
-      root.dataset.latency = (performance.now() - sent).toFixed(1);
+      root.dataset.latency = (performance.now() - answered).toFixed(1);
       root.dataset.answers = String(Number(root.dataset.answers) + 1);
-      sent = 0;
+      answered = 0;
     }
-    // The newest place only, and only when the kernel is done with the one before: moves never queue up.
-    if (moved && !sent) {
-      moved = false;
-      sent = performance.now();
-      serial += 1;
-      model.send({ type: "move", handles: places, serial });
-    }
+    settle();
     root.dataset.busy = String(Boolean(sent || moved));
-    if (!sent && !moved && held < 0) adopt();
+  }
+
+  // The newest place only, and only when the kernel is done with the one before: moves never queue up.
+  function tell() {
+    if (sent || !moved) return;
+    moved = false;
+    sent = performance.now();
+    serial += 1;
+    model.send({ type: "move", handles: places, serial });
+  }
+
+  function hear(message) {
+    if (message.type !== "answer" || message.serial !== serial || !sent) return;
+    answered = sent;
+    sent = 0;
+    tell();
+    schedule();
   }
 
   function arrange() {
@@ -128,6 +137,7 @@ function render({ model, el }) {
     places[i] = [clamp(x, left, right), clamp(y, bottom, top)];
     moved = true;
     root.dataset.busy = "true";
+    tell();
     schedule();
   }
 
@@ -175,7 +185,7 @@ function render({ model, el }) {
   const settle = () => { if (held < 0 && !moved && !sent) adopt(); };
   const events = [["change:_layers", arrange], ["change:_view", resize], ["change:alt change:_legend change:text", describe],
     ["change:handles change:handle_labels", settle],
-    ["msg:custom", (message) => { if (message.type === "answer" && message.serial === serial && sent) { answered = true; schedule(); } }]];
+    ["msg:custom", hear]];
   for (const [names, call] of events) model.on(names, call);
   describe();
   resize();

@@ -68,6 +68,8 @@ class Explorer(ipywidgets.VBox):
         for control in self.controls.values():
             # Labels are read in full, whatever their length.
             control.style = {"description_width": "initial"}
+            control.layout.width = "26em" if hasattr(control, "max") else "auto"
+            control.layout.margin = "2px 16px 2px 0"
             control.observe(self._changed, "value")
         board.observe(self._changed, "handles")
         row = ipywidgets.HBox(list(self.controls.values()), layout={"flex_flow": "row wrap"})
