@@ -6,7 +6,7 @@ import ipywidgets
 import numpy as np
 
 from ..errors import InputError
-from ..graphs import delaunay, gabriel, voronoi
+from ..graphs import Tessellation, delaunay, gabriel, voronoi
 from ..predicates import as_points
 from .board import Board, box_around
 from .explorer import Explorer
@@ -44,49 +44,63 @@ class Graphs(Explorer):
         controls["triangle"] = ipywidgets.IntSlider(
             count // 2, min=-1, max=count - 1, description="ball of triangle (-1: none)"
         )
+        self._number, self._corners = -1, frozenset()
         super().__init__(
             board,
             controls,
-            "Move a sample: a Delaunay triangle flips just when another sample enters its ball, and two Voronoi "
-            "vertices meet; a segment is Gabriel while its own Voronoi edge crosses it.",
+            "Move a sample: a Delaunay triangle flips just when another sample enters its ball, and two "
+            "Voronoi vertices meet there; a segment is Gabriel while its own Voronoi edge crosses it.",
         )
 
     def draw(self) -> None:
-        board, chosen = self.board, self.controls
+        board = self.board
         graph = delaunay(board.handles)
-        segments = graph.facets()
-        close = gabriel(graph)
         dual = voronoi(graph)
-        slider = chosen["triangle"]
-        slider.max = len(graph.simplices) - 1
-        board.draw(
-            "delaunay", "delaunay", chosen["delaunay"].value, lines=graph.points[segments], label="Delaunay"
-        )
-        board.draw("gabriel", "gabriel", chosen["gabriel"].value, lines=graph.points[close], label="Gabriel")
-        board.draw(
-            "voronoi",
-            "voronoi",
-            chosen["voronoi"].value,
-            lines=np.concatenate([dual.segments(), _rays(dual, board.box)]),
-            label="Voronoi",
-        )
-        ball = slice(slider.value, slider.value + 1) if slider.value >= 0 else slice(0)
+        remark = self._follow(graph)
+        lines = {
+            "delaunay": graph.points[graph.facets()],
+            "voronoi": np.concatenate([dual.segments(), _rays(dual, board.box)]),
+            "gabriel": graph.points[gabriel(graph)],
+        }
+        chosen = [name for name in lines if self.controls[name].value]
+        for name, segments in lines.items():
+            board.draw(name, name, name in chosen, lines=segments, label=_WORDS[name])
+        number = self.controls["triangle"].value
+        ball = slice(number, number + 1) if number >= 0 else slice(0)
         center, radius = graph.circumcenters[ball], graph.circumradii[ball]
         board.draw("ball", "balls", circles=(center, radius), label="ball of one triangle")
         board.draw("center", "voronoi", points=center, width=2)
         board.alt = (
-            f"{len(graph.points)} movable dots with "
-            + _listed([w for k, w in _WORDS.items() if chosen[k].value])
-            + (f" and the empty disc through the corners of triangle {slider.value}." if len(radius) else ".")
+            f"{len(graph.points)} dots to move, graphs: {', '.join(_WORDS[name] for name in chosen) or 'none'}"
+            + (f"; the empty disc through the corners of triangle {number}." if len(radius) else ".")
         )
         self.tell(
+            remark,
             samples=len(graph.points),
             triangles=len(graph.simplices),
-            Delaunay_segments=len(segments),
-            Gabriel_segments=len(close),
+            Delaunay_segments=len(lines["delaunay"]),
+            Gabriel_segments=len(lines["gabriel"]),
             Voronoi_vertices=len(dual.vertices),
             **({"radius_of_the_ball": float(radius[0])} if len(radius) else {}),
         )
+
+    def _follow(self, graph: Tessellation) -> str:
+        """Keep the ball on its triangle while samples move; a sentence when that triangle is gone."""
+        slider = self.controls["triangle"]
+        triangles = [frozenset(corners) for corners in graph.simplices.tolist()]
+        slider.max = len(triangles) - 1
+        if slider.value < 0:
+            return ""
+        lost = ""
+        if slider.value == self._number:  # it was not the slider that moved
+            if self._corners in triangles:
+                slider.value = triangles.index(self._corners)
+            else:
+                lost = (
+                    f"Samples {_and(self._corners)} are no triangle any more: a sample came into their ball."
+                )
+        self._number, self._corners = slider.value, triangles[slider.value]
+        return lost
 
 
 def graphs(points=START) -> Graphs:
@@ -100,8 +114,8 @@ def graphs(points=START) -> Graphs:
     Returns
     -------
     Graphs
-        An `Explorer`; its handles are the points. Controls: ``delaunay``, ``voronoi``, ``gabriel`` (on or off)
-        and ``triangle``, whose empty ball is shown.
+        An `Explorer`; its handles are the points. Controls: ``delaunay``, ``voronoi``, ``gabriel`` (on or
+        off) and ``triangle``, whose empty ball is shown.
 
     Raises
     ------
@@ -127,5 +141,6 @@ def _rays(dual, box) -> np.ndarray:
     return np.stack([start, start + far[:, None] * dual.rays], axis=1)
 
 
-def _listed(names: list[str]) -> str:
-    return f"their {', '.join(names)} graph" if names else "no graph"
+def _and(numbers) -> str:
+    *rest, last = map(str, sorted(numbers))
+    return f"{', '.join(rest)} and {last}"
