@@ -50,6 +50,21 @@ if "repository" in BOOK["book"]:
         "use_repository_button": True,
     }
 
+# A widget is shown as the page's own HTML, and no script of a widget manager is fetched for it.
+nb_mime_priority_overrides = [
+    ("html", "application/vnd.jupyter.widget-view+json", None),
+    ("html", "text/html", 0),
+]
+nb_ipywidgets_js = {}
+VIEWER = (ROOT / "polyskel_lite" / "explore" / "viewer.js").read_text(encoding="utf-8")
+
+
+def add_viewer(app, pagename, templatename, context, doctree):
+    """Put the viewer's module into each page that shows one: pages read from disk may not import modules."""
+    if 'class="psl-viewer"' in context.get("body", ""):
+        app.add_js_file(None, body=VIEWER, type="module")
+
+
 globals().update(BOOK.get("sphinx", {}).get("config", {}))
 
 
@@ -61,3 +76,4 @@ def references_as_list(app, pagename, templatename, context, doctree):
 
 def setup(app):
     app.connect("html-page-context", references_as_list)
+    app.connect("html-page-context", add_viewer)

@@ -14,15 +14,19 @@ import nbformat
 from nbclient import NotebookClient
 
 NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
+LIVE = "application/vnd.jupyter.widget-view+json"  # points into a kernel that is gone
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def clean(notebook: nbformat.NotebookNode, stem: str) -> nbformat.NotebookNode:
-    """Keep what the chapter says; drop what only tells which machine ran it, and when."""
+    """Keep what the chapter says; drop what only tells which machine ran it, and when, and live widgets."""
     notebook.metadata = nbformat.from_dict({"kernelspec": KERNEL, "language_info": {"name": "python"}})
     for number, cell in enumerate(notebook.cells):
         cell["id"] = f"{stem.replace('_', '-')}-{number:03d}"
         cell.metadata.pop("execution", None)
+        for output in cell.get("outputs", []):
+            if len(output.get("data", {})) > 1:  # what stands beside it is shown instead
+                output["data"].pop(LIVE, None)
     return notebook
 
 
