@@ -148,7 +148,7 @@ class SkeletonViewer(anywidget.AnyWidget):
     >>> picture = explore.viewer(psl.datasets.load("hawaii"))
     >>> picture.threshold = 2 * np.pi
     >>> picture.counts()["branches"]
-    18
+    8
     """
 
     _esm = _MODULE
