@@ -13,6 +13,7 @@ from .errors import (
     PolyskelError,
     ReconstructionError,
     ShapeError,
+    TangentBallsError,
     TessellationError,
 )
 from .graphs import Tessellation, delaunay, gabriel, voronoi
@@ -34,6 +35,7 @@ __all__ = [
     "Shape",
     "ShapeError",
     "Skeleton",
+    "TangentBallsError",
     "Tessellation",
     "TessellationError",
     "branch_graph",

@@ -37,7 +37,8 @@ class Skeleton:
     radii : (k,) float array
         Distance from each vertex to its nearest samples, a length: the Delaunay balls.
     simplices : (k,) int array
-        The Delaunay simplex whose dual each vertex is; -1 for the cut points of Sk3.
+        The Delaunay simplex whose dual each vertex is; -1 for the cut points of Sk3, and everywhere in the
+        skeleton of a polyball.
     edges : (e, 2) int array
         Pairs of vertices.
     polygons : sequence of int arrays
@@ -68,6 +69,8 @@ class Skeleton:
     tessellation: Tessellation | None = None
 
     def __post_init__(self):
+        # NumPy's own integer, so that np.bincount(edges.ravel()) works in a browser too, where it has 32 bits.
+        object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
         object.__setattr__(self, "polygons", Polygons.of(self.polygons))
         if self.rays is None:
             object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
@@ -164,7 +167,8 @@ class Skeleton:
         """
         from .polyballs import Polyball
 
-        keep = self.simplices >= 0
+        # Vertices that are dual to no simplex are cuts of Sk3; the skeleton of a polyball has no others.
+        keep = (self.simplices >= 0) | (self.tessellation is None)
         return Polyball(self.vertices[keep], self.radii[keep])
 
     def reconstruct(self) -> DelaunayShape:

@@ -15,15 +15,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-# A disc that sticks out of another one by less than this share of its radius is taken as part of
-# it: below, the crossings of the two circles could be anywhere (error about 1e-16 / share).
-_SWALLOWED = 1e-10
-# The share of its radius to which a disc is believed: circumcentres of thin triangles lose digits.
-_PRECISION = 1e-12
-# However badly conditioned, no crossing is off by more than this share of the smaller radius.
-_WORST = 1e-6
-_ROUNDING = 8 * np.finfo(float).eps
-_TURN = 2 * np.pi
+from ._ball_pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, rounding, swallowed, touching
+
+TURN = 2 * np.pi
 _CHUNK = 2_000_000  # point-arc pairs looked at together: bounds the memory, not the result
 
 
@@ -43,21 +37,24 @@ class Arcs(NamedTuple):
     end: np.ndarray
 
 
-class Boundary(NamedTuple):
-    """What `boundary` returns.
+class DiscBoundary(NamedTuple):
+    """What `disc_boundary` returns.
 
     Attributes
     ----------
     arcs : Arcs
     corners : (s, 2) float array
         Points of the boundary on two or more circles.
+    touching : (q, 2) int array
+        Discs that touch from outside in a point of the boundary.
     """
 
     arcs: Arcs
     corners: np.ndarray
+    touching: np.ndarray
 
 
-class _Covers(NamedTuple):
+class Covers(NamedTuple):
     """Covered parts of circles: from `start` to `start + width`, each end known to `error` (angles)."""
 
     ball: np.ndarray
@@ -66,7 +63,7 @@ class _Covers(NamedTuple):
     error: np.ndarray
 
 
-def boundary(centers: np.ndarray, radii: np.ndarray) -> Boundary:
+def disc_boundary(centers: np.ndarray, radii: np.ndarray) -> DiscBoundary:
     """Find the arcs of the boundary of a union of closed discs, and the points where circles meet on it.
 
     Discs in a larger disc have no arc; of equal discs the first has them all. Where two discs touch
@@ -80,29 +77,30 @@ def boundary(centers: np.ndarray, radii: np.ndarray) -> Boundary:
 
     Returns
     -------
-    Boundary
+    DiscBoundary
 
     Examples
     --------
-    >>> arcs, corners = boundary(np.array([(0.0, 0.0), (1.0, 0.0), (0.1, 0.0)]), np.array([1, 1, 0.2]))
+    >>> centers, radii = np.array([(0.0, 0.0), (1.0, 0.0), (0.1, 0.0)]), np.array([1, 1, 0.2])
+    >>> arcs, corners, _ = disc_boundary(centers, radii)
     >>> arcs.ball, np.degrees(arcs.start).round(), np.degrees(arcs.end).round()
     (array([0, 1]), array([  60., -120.]), array([300., 120.]))
     >>> sorted(corners.round(3).tolist())
     [[0.5, -0.866], [0.5, 0.866]]
     """
-    i, j = _meeting_pairs(centers, radii)
-    kept = ~_swallowed(centers, radii, i, j)
+    i, j = meeting_pairs(centers, radii)
+    kept = ~swallowed(centers, radii, i, j)
     both = kept[i] & kept[j]
     i, j = i[both], j[both]
-    touch = _touching(centers, radii, i, j)
-    arcs, errors = _uncovered(_covers(centers, radii, i[~touch], j[~touch]), np.flatnonzero(kept))
-    part = arcs.end - arcs.start < _TURN
+    touch = touching(centers, radii, i, j)
+    arcs, errors = uncovered(_covers(centers, radii, i[~touch], j[~touch]), np.flatnonzero(kept))
+    part = arcs.end - arcs.start < TURN
     ball = np.tile(arcs.ball[part], 2)
     ends = _on_circles(centers, radii, ball, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * radii[ball] + _ROUNDING * (np.abs(ends).max(axis=1) + radii[ball])
-    points = _touching_points(centers, radii, i[touch], j[touch], arcs)
-    corners = _merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
-    return Boundary(arcs, corners)
+    slack = errors[:, part].ravel() * radii[ball] + ROUNDING * (np.abs(ends).max(axis=1) + radii[ball])
+    points, touching_pairs = _touching_points(centers, radii, i[touch], j[touch], arcs)
+    corners = merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
+    return DiscBoundary(arcs, corners, touching_pairs)
 
 
 def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray, arcs: Arcs) -> np.ndarray:
@@ -112,7 +110,7 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     ----------
     queries : (k, 2) float array
     centers, radii, arcs
-        As given to and got from `boundary`.
+        As given to and got from `disc_boundary`.
 
     Returns
     -------
@@ -121,7 +119,8 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     Examples
     --------
     >>> centers, radii = np.array([(0.0, 0.0), (1.0, 0.0)]), np.array([1.0, 1.0])
-    >>> distance_to_arcs(np.array([(0.5, 0.0), (-3.0, 0.0)]), centers, radii, boundary(centers, radii).arcs)
+    >>> arcs = disc_boundary(centers, radii).arcs
+    >>> distance_to_arcs(np.array([(0.5, 0.0), (-3.0, 0.0)]), centers, radii, arcs)
     array([0.8660254, 2.       ])
     """
     ball, start, end = arcs
@@ -130,7 +129,7 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     middle = (start + end) / 2
     axis = np.stack([np.cos(middle), np.sin(middle)], axis=1)
     # A whole circle accepts every direction, whatever the rounding of cos(π).
-    reach = np.where(end - start >= _TURN, -2.0, np.cos((end - start) / 2))
+    reach = np.where(end - start >= TURN, -2.0, np.cos((end - start) / 2))
     step = max(1, _CHUNK // len(ball))
     for first in range(0, len(queries), step):
         rows = slice(first, first + step)
@@ -144,81 +143,30 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     return distance
 
 
-def _lengths(vectors: np.ndarray) -> np.ndarray:
-    return np.hypot(vectors[:, 0], vectors[:, 1])
-
-
 def _on_circles(centers, radii, ball, angle) -> np.ndarray:
     return centers[ball] + radii[ball, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def _rounding(centers, radii, i, j) -> np.ndarray:
-    """What the rounding of coordinates and radii may do to a distance between two discs."""
-    size = np.abs(centers).max(axis=1) + radii
-    return _ROUNDING * (size[i] + size[j])
-
-
-def _meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
-    """All pairs i < j of discs that meet, and those that miss each other only by rounding.
-
-    A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
-    that few pairs too many are looked at, however unequal the discs are.
-    """
-    octave = np.frexp(radii)[1]
-    groups = [np.flatnonzero(octave == value) for value in np.unique(octave)]
-    trees = [cKDTree(centers[group]) for group in groups]
-    found_i, found_j = [], []
-    for a in range(len(groups)):
-        for b in range(a + 1):
-            reach = (radii[groups[a]].max() + radii[groups[b]].max()) * (1 + 1e-9)
-            near = trees[a].sparse_distance_matrix(trees[b], reach, output_type="ndarray")
-            i, j = groups[a][near["i"]], groups[b][near["j"]]
-            meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + _rounding(centers, radii, i, j)
-            if a == b:
-                meet &= i < j  # within one tree each pair is found from both sides
-            found_i.append(i[meet])
-            found_j.append(j[meet])
-    i, j = np.concatenate(found_i), np.concatenate(found_j)
-    return np.minimum(i, j), np.maximum(i, j)
-
-
-def _swallowed(centers, radii, i, j) -> np.ndarray:
-    """Which discs lie in a larger one, or in an equal one with a smaller index, up to the tolerance."""
-    smaller = radii[i] < radii[j]
-    small, large = np.where(smaller, i, j), np.where(smaller, j, i)
-    out = _lengths(centers[small] - centers[large]) + radii[small] - radii[large]
-    inside = out <= _SWALLOWED * radii[small] + _rounding(centers, radii, small, large)
-    swallowed = np.zeros(len(radii), dtype=bool)
-    swallowed[small[inside]] = True
-    return swallowed
-
-
-def _touching(centers, radii, i, j) -> np.ndarray:
-    """Which pairs do not cross but touch from outside (or miss each other), up to the tolerance."""
-    gap = _lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    return gap >= -_PRECISION * np.minimum(radii[i], radii[j]) - _rounding(centers, radii, i, j)
-
-
-def _covers(centers, radii, i, j) -> _Covers:
+def _covers(centers, radii, i, j) -> Covers:
     """The part of circle i in disc j, and of circle j in disc i, for discs that cross."""
     i, j = np.concatenate([i, j]), np.concatenate([j, i])
     ri, rj = radii[i], radii[j]
     across = centers[j] - centers[i]
-    d = _lengths(across)
+    d = lengths(across)
     # Half-angle formula for the angle at c_i in the triangle (c_i, c_j, crossing): near tangency the
     # law of cosines would lose half of the digits.
     above = np.maximum((rj - d + ri) * (rj + d - ri), 0)
     below = np.maximum((d + ri - rj) * (d + ri + rj), 0)
     half = 2 * np.arctan2(np.sqrt(above), np.sqrt(below))
     # A crossing moves by (error of the discs) / (sine of the angle at which the circles cross).
-    believed = _PRECISION * (ri + rj) + _rounding(centers, radii, i, j)
+    believed = PRECISION * (ri + rj) + rounding(centers, radii, i, j)
     sine = np.sqrt(above) * np.sqrt(below) / (2 * ri * rj)
     with np.errstate(divide="ignore"):
-        error = np.minimum(believed / sine, np.maximum(_WORST * np.minimum(ri, rj), believed))
-    return _Covers(i, np.arctan2(across[:, 1], across[:, 0]) - half, 2 * half, error / ri)
+        error = np.minimum(believed / sine, np.maximum(WORST * np.minimum(ri, rj), believed))
+    return Covers(i, np.arctan2(across[:, 1], across[:, 0]) - half, 2 * half, error / ri)
 
 
-def _uncovered(covers: _Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
+def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
     """What the covered parts leave of the circles in `kept`, and the errors (2, a) of both ends as angles."""
     whole = np.setdiff1d(kept, covers.ball)
     ball, origin, start, end, error = _unrolled(covers)
@@ -241,16 +189,16 @@ def _uncovered(covers: _Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
     return Arcs(*(values[order] for values in arcs)), errors[:, order]
 
 
-def _unrolled(covers: _Covers) -> tuple[np.ndarray, ...]:
+def _unrolled(covers: Covers) -> tuple[np.ndarray, ...]:
     """Covered parts as intervals of a line: per circle from the start of one part once around to it again."""
     ball, start, width, error = covers
     balls, first = np.unique(ball, return_index=True)
     origin = (start - error)[first][np.searchsorted(balls, ball)]
-    turned = (start - origin) % _TURN
+    turned = (start - origin) % TURN
     end = turned + width
-    over = np.flatnonzero(end + error > _TURN)  # these cover the beginning of the line as well
+    over = np.flatnonzero(end + error > TURN)  # these cover the beginning of the line as well
     index = np.concatenate([np.arange(len(ball)), over, first])
-    shift = np.repeat([0.0, -_TURN, _TURN], [len(ball), len(over), len(first)])
+    shift = np.repeat([0.0, -TURN, TURN], [len(ball), len(over), len(first)])
     return ball[index], origin[index], turned[index] + shift, end[index] + shift, error[index]
 
 
@@ -265,29 +213,31 @@ def _furthest_so_far(ball: np.ndarray, reach: np.ndarray) -> np.ndarray:
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:
     """The angle in [-π, π)."""
-    turned = (angle + np.pi) % _TURN - np.pi
+    turned = (angle + np.pi) % TURN - np.pi
     return np.where(turned >= np.pi, -np.pi, turned)
 
 
-def _touching_points(centers, radii, i, j, arcs: Arcs) -> np.ndarray:
-    """Where two discs touch from outside and no third one covers the place."""
-    apart = _lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    believed = _PRECISION * np.minimum(radii[i], radii[j]) + _rounding(centers, radii, i, j)
+def _touching_points(centers, radii, i, j, arcs: Arcs) -> tuple[np.ndarray, np.ndarray]:
+    """Where two discs touch from outside and no third one covers the place, and which discs these are."""
+    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
+    believed = PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
     i, j, believed = (values[apart <= believed] for values in (i, j, believed))
     share = radii[i] / (radii[i] + radii[j])
     points = centers[i] + share[:, None] * (centers[j] - centers[i])
+    pairs = np.column_stack([i, j])
     if not len(points):
-        return points
+        return points, pairs
     # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
-    return points[distance_to_arcs(points, centers, radii, arcs) <= 2 * believed]
+    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
+    return points[free], pairs[free]
 
 
-def _merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """The best-known point of each group of points that are linked by distances within their errors."""
     if not len(points):
         return points
     near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
-    near = near[_lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
+    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
     links = coo_matrix((np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(points),) * 2)
     group = connected_components(links, directed=False)[1]
     best_first = np.lexsort((errors, group))

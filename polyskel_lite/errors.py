@@ -47,3 +47,17 @@ class ContourContainmentError(PolyskelError):
 
 class ReconstructionError(PolyskelError):
     """No closed curve could be certified from the samples alone."""
+
+
+class TangentBallsError(PolyskelError):
+    """Two balls of a polyball touch without crossing, in a point of its boundary (the paper's appendix A).
+
+    Attributes
+    ----------
+    pairs : (q, 2) int array
+        The balls.
+    """
+
+    def __init__(self, message: str, pairs):
+        super().__init__(message)
+        self.pairs = pairs

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 
 from polyskel_lite import InputError, Shape, conform, datasets
-from polyskel_lite.discs import _wrapped, boundary
+from polyskel_lite.discs import _wrapped, disc_boundary
 from polyskel_lite.polyballs import Polyball
 
 
@@ -445,11 +445,17 @@ def test_queries_are_checked():
         assert ask(np.empty((0, 2))).shape == (0,)
 
 
-@pytest.mark.parametrize("method", ["arcs", "singular_points", "area", "boundary_distance"])
-def test_methods_of_the_plane_refuse_space(method):
-    Y = Polyball([(0, 0, 0)], [1])
-    with pytest.raises(InputError, match=rf"Polyball\.{method}\(\) is for discs of the plane"):
-        getattr(Y, method)(*([[(0, 0, 0)]] if method == "boundary_distance" else []))
+@pytest.mark.parametrize(
+    ("method", "centers", "words"),
+    [
+        ("arcs", [(0, 0, 0)], "discs of the plane"),
+        ("volume", [(0, 0)], "balls in space"),
+        ("patches", [(0, 0)], "balls in space"),
+    ],
+)
+def test_methods_of_one_dimension_refuse_the_other(method, centers, words):
+    with pytest.raises(InputError, match=rf"Polyball\.{method}\(\) is for {words}"):
+        getattr(Polyball(centers, [1]), method)()
 
 
 def test_arrays_are_copies_and_frozen():
@@ -460,4 +466,4 @@ def test_arrays_are_copies_and_frozen():
     for array in (Y.centers, Y.radii):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 2
-    assert boundary(Y.centers, Y.radii).arcs.ball.tolist() == [0]
+    assert disc_boundary(Y.centers, Y.radii).arcs.ball.tolist() == [0]

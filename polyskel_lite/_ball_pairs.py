@@ -1,0 +1,87 @@
+"""Pairs of balls: which meet, cross, touch, lie in each other, and how far rounded numbers are believed.
+
+Delaunay balls are the hard case, not the easy one: many pass through the same sample, neighbouring ones
+nearly coincide, and rounded centres and radii keep none of this exactly.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+# A ball that sticks out of another one by less than this share of its radius is taken as part of
+# it: below, the crossings of the two spheres could be anywhere (error about 1e-16 / share).
+SWALLOWED = 1e-10
+# The share of its radius to which a ball is believed: circumcentres of thin simplices lose digits.
+PRECISION = 1e-12
+# However badly conditioned, no crossing is off by more than this share of the smaller radius.
+WORST = 1e-6
+ROUNDING = 8 * np.finfo(float).eps
+
+
+def lengths(vectors: np.ndarray) -> np.ndarray:
+    """Euclidean lengths of the rows."""
+    return np.sqrt((vectors**2).sum(axis=1))
+
+
+def rounding(centers, radii, i, j) -> np.ndarray:
+    """What the rounding of coordinates and radii may do to a distance between two balls."""
+    size = np.abs(centers).max(axis=1) + radii
+    return ROUNDING * (size[i] + size[j])
+
+
+def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
+    """All pairs i < j of balls that meet, and those that miss each other only by rounding.
+
+    A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
+    that few pairs too many are looked at, however unequal the balls are.
+    """
+    octave = np.frexp(radii)[1]
+    groups = [np.flatnonzero(octave == value) for value in np.unique(octave)]
+    trees = [cKDTree(centers[group]) for group in groups]
+    found_i, found_j = [], []
+    for a in range(len(groups)):
+        for b in range(a + 1):
+            reach = (radii[groups[a]].max() + radii[groups[b]].max()) * (1 + 1e-9)
+            near = trees[a].sparse_distance_matrix(trees[b], reach, output_type="ndarray")
+            i, j = groups[a][near["i"]], groups[b][near["j"]]
+            meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
+            if a == b:
+                meet &= i < j  # within one tree each pair is found from both sides
+            found_i.append(i[meet])
+            found_j.append(j[meet])
+    i, j = np.concatenate(found_i), np.concatenate(found_j)
+    return np.minimum(i, j), np.maximum(i, j)
+
+
+def swallowed(centers, radii, i, j) -> np.ndarray:
+    """Which balls lie in a larger one, or in an equal one with a smaller index, up to the tolerance."""
+    smaller = radii[i] < radii[j]
+    small, large = np.where(smaller, i, j), np.where(smaller, j, i)
+    out = lengths(centers[small] - centers[large]) + radii[small] - radii[large]
+    inside = out <= SWALLOWED * radii[small] + rounding(centers, radii, small, large)
+    result = np.zeros(len(radii), dtype=bool)
+    result[small[inside]] = True
+    return result
+
+
+def touching(centers, radii, i, j) -> np.ndarray:
+    """Which pairs do not cross but touch from outside (or miss each other), up to the tolerance."""
+    gap = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
+    return gap >= -PRECISION * np.minimum(radii[i], radii[j]) - rounding(centers, radii, i, j)
+
+
+def crossings(centers, radii, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where the spheres of crossing pairs meet: centres (m, N), radii (m,), unit axes (m, N) of the circles.
+
+    In the plane a circle is two points.
+    """
+    i, j = pairs.T
+    across = centers[j] - centers[i]
+    d = lengths(across)
+    axis = across / d[:, None]
+    along = (d + (radii[i] - radii[j]) * (radii[i] + radii[j]) / d) / 2
+    # Heron's product instead of r² - a²: near tangency the difference would lose half of the digits.
+    product = (radii[i] + radii[j] + d) * (radii[i] + radii[j] - d)
+    product *= (d + radii[i] - radii[j]) * (d - radii[i] + radii[j])
+    return centers[i] + along[:, None] * axis, np.sqrt(np.maximum(product, 0)) / (2 * d), axis

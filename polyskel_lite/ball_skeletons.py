@@ -1,0 +1,265 @@
+"""The exact skeleton of a union of balls (appendix A, theorems 3 and 4 as corrected).
+
+Between two singular points p and q the skeleton is a convex piece of their Voronoi face, the points whose
+nearest boundary points are p and q. Its corners are Voronoi vertices whose ball lies in the union, and centres
+of balls through both p and q. So no face is clipped numerically: the corners are found one by one, and sorted.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ._incidence import Incidence
+from ._polygons import Polygons
+from .complexes import Skeleton
+from .power import PowerTriangulation, regular_triangulation
+from .topology import components
+
+# Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one.
+_SAME = 1e-9
+# Cospherical points are triangulated as if lifted by up to this share of the squared distance to the next.
+# Far more than rounding, so that cells around one Voronoi vertex never contain flat simplices.
+_LIFT = 1e-6
+# A polygon narrower than this share of its length is a line.
+_FLAT = 1e-8
+
+
+class Boundary(NamedTuple):
+    """What the skeleton needs to know about the boundary of a union of balls.
+
+    Attributes
+    ----------
+    corners : (s, N) float array
+        Singular points.
+    exposed : (k,) bool array
+        Balls with a piece of their sphere on the boundary.
+    alone : (k,) bool array
+        Balls whose centre is in the skeleton whatever else is.
+    bridges : (m, 2) int array
+        In space, pairs of balls whose circle is on the boundary without any singular point on it.
+    """
+
+    corners: np.ndarray
+    exposed: np.ndarray
+    alone: np.ndarray
+    bridges: np.ndarray
+
+
+class _Faces(NamedTuple):
+    """Vertices of the skeleton on each Voronoi face of the singular points: rows (face, vertex), sorted."""
+
+    generators: np.ndarray
+    face: np.ndarray
+    vertex: np.ndarray
+
+
+def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation) -> Skeleton:
+    """Build the skeleton of a union of balls from the features of its boundary.
+
+    Parameters
+    ----------
+    centers : (k, N) float array
+    radii : (k,) float array
+        No two balls equal.
+    boundary : Boundary
+    power : PowerTriangulation
+        Of the same balls.
+
+    Returns
+    -------
+    Skeleton
+
+    References
+    ----------
+    Attali and Montanvert 1997, appendix A.2; Amenta and Kolluri, The medial axis of a union of balls, 2001.
+
+    Examples
+    --------
+    Three balls in a row, every two of which cross in a whole circle or not at all:
+
+    >>> import numpy as np
+    >>> from polyskel_lite.power import power_triangulation
+    >>> centers, radii = np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3)
+    >>> whole = np.ones(3, dtype=bool)
+    >>> bare = Boundary(np.zeros((0, 3)), whole, whole, np.array([(0, 1), (1, 2)]))
+    >>> ball_skeleton(centers, radii, bare, power_triangulation(centers, radii)).edges.tolist()
+    [[0, 1], [1, 2]]
+    """
+    n = centers.shape[1]
+    vertices, sizes = centers - power.origin, radii
+    edges, polygons = [boundary.bridges], Polygons()
+    if len(boundary.corners):
+        corners = boundary.corners - power.origin
+        on = Incidence(corners, vertices, radii)
+        t = _triangulate(corners)
+        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii, power)
+        lines = _faces(t, label, on, boundary.exposed, n)
+        edges.append(_chains(lines, vertices))
+        if n == 3:
+            sheets = _faces(t, label, on, boundary.exposed, 2)
+            polygons, flat = _polygons(sheets, vertices, corners)
+            edges += [flat, _sides(polygons)]
+    edges = np.unique(np.sort(np.concatenate(edges), axis=1), axis=0).astype(np.int64)
+    used = np.zeros(len(vertices), dtype=bool)
+    used[: len(radii)] = boundary.alone
+    used[edges] = True
+    number = np.cumsum(used) - 1
+    return Skeleton(
+        vertices=vertices[used] + power.origin,
+        radii=sizes[used],
+        simplices=np.full(int(used.sum()), -1),
+        edges=number[edges],
+        polygons=Polygons(number[polygons.corners], polygons.sizes),
+    )
+
+
+def _triangulate(corners) -> PowerTriangulation:
+    """The Delaunay simplices of the singular points, ghosts around them, ties broken one way for all."""
+    n = corners.shape[1]
+    near = cKDTree(corners).query(corners, k=2)[0][:, 1] if len(corners) > 1 else np.zeros(1)
+    near[~np.isfinite(near)] = 0
+    lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
+    size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
+    return regular_triangulation(corners, lift, np.zeros(n), size)
+
+
+def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
+    """The skeleton vertex of each simplex (-1: none), and places and radii of all vertices, balls first."""
+    k, real = len(radii), t.real()
+    label = np.full(len(t.simplices), -1)
+    row, ball = on.common(t.simplices[real])
+    first = np.unique(row, return_index=True)[1]
+    label[np.flatnonzero(real)[row[first]]] = ball[first]
+    rest = np.flatnonzero(real & (label < 0))
+    place, size = _circumballs(corners[t.simplices[rest]], t.orthocenters[rest])
+    # The same ball may be one of the given ones, or that of a neighbouring simplex.
+    distance, nearest = cKDTree(centers).query(place)
+    given = distance <= _SAME * size
+    given &= np.abs(radii[nearest] - size) <= _SAME * size
+    label[rest[given]] = nearest[given]
+    rest, place, size = rest[~given], place[~given], size[~given]
+    number = np.full(len(t.simplices) + 1, -1)
+    number[rest] = np.arange(len(rest))
+    own = np.append(label < 0, True)
+    sides, facets = _facet_sides(t)
+    free = np.ones(len(sides), dtype=bool)
+    real_facets = np.flatnonzero((facets < len(corners)).all(axis=1))
+    free[real_facets[on.common(facets[real_facets])[0]]] = False
+    free &= own[sides].all(axis=1)
+    # Whether the Voronoi ball lies in the union can change along the Voronoi graph only at centres of balls.
+    _, part = components(len(own), sides[free])
+    inside = np.zeros(part.max() + 1, dtype=bool)
+    order = np.argsort(size)
+    largest = np.full(len(inside), -1)
+    largest[part[rest[order]]] = order
+    outside = np.append(np.flatnonzero(~real), len(t.simplices))
+    largest[part[outside]] = -1
+    tested = np.flatnonzero(largest >= 0)
+    inside[tested] = power.in_dual_shape(place[largest[tested]] + power.origin)
+    pairs = number[sides[free]]
+    pairs = pairs[(pairs >= 0).all(axis=1)]
+    twins = pairs[_distance(place, pairs) <= _SAME * size[pairs].min(axis=1)]
+    count, group = components(len(rest), twins)
+    representative = np.zeros(count, dtype=np.int64)
+    representative[group] = np.arange(len(rest))
+    kept = inside[part[rest]]
+    label[rest[kept]] = k + group[kept]
+    return label, np.concatenate([centers, place[representative]]), np.append(radii, size[representative])
+
+
+def _distance(points, pairs) -> np.ndarray:
+    return np.sqrt(((points[pairs[:, 0]] - points[pairs[:, 1]]) ** 2).sum(axis=1))
+
+
+def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
+    """Centres and radii of the balls through the corners (m, N+1, N) of simplices."""
+    legs = corners[:, 1:] - corners[:, :1]
+    flat = np.abs(np.linalg.det(legs)) <= 1e-12 * np.prod(np.sqrt((legs**2).sum(axis=2)), axis=1)
+    legs[flat] = np.eye(corners.shape[2])
+    place = corners[:, 0] + np.linalg.solve(legs, (legs**2).sum(axis=2)[:, :, None])[:, :, 0] / 2
+    place[flat] = fallback[flat]
+    return place, np.sqrt(((place[:, None] - corners) ** 2).sum(axis=2)).mean(axis=1)
+
+
+def _facet_sides(t) -> tuple[np.ndarray, np.ndarray]:
+    """For each facet the two simplices beside it (m, 2), number t for none, and its corners (m, N)."""
+    rows, opposite = np.nonzero(t.neighbors < np.arange(len(t.simplices))[:, None])
+    sides = np.column_stack([rows, t.neighbors[rows, opposite]])
+    sides[sides < 0] = len(t.simplices)
+    others = np.array(
+        [[c for c in range(t.simplices.shape[1]) if c != o] for o in range(t.simplices.shape[1])]
+    )
+    return sides, np.sort(t.simplices[rows[:, None], others[opposite]], axis=1)
+
+
+def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
+    """The Voronoi faces of `size` singular points, each with its skeleton vertices."""
+    columns = list(combinations(range(t.simplices.shape[1]), size))
+    groups = np.sort(t.simplices[:, columns], axis=2).reshape(-1, size)
+    owner = np.repeat(np.arange(len(t.simplices)), len(columns))
+    real = groups[:, -1] < t.count
+    generators, face = np.unique(groups[real], axis=0, return_inverse=True)
+    face, vertex = face.reshape(-1), label[owner[real]]
+    through, ball = on.common(generators)
+    through, ball = through[exposed[ball]], ball[exposed[ball]]
+    rows = np.column_stack([np.append(face[vertex >= 0], through), np.append(vertex[vertex >= 0], ball)])
+    rows = np.unique(rows, axis=0)
+    return _Faces(generators, rows[:, 0], rows[:, 1])
+
+
+def _chains(faces: _Faces, vertices) -> np.ndarray:
+    """Edges between consecutive vertices of faces that are parts of lines, (e, 2)."""
+    face, vertex = faces.face, faces.vertex
+    if not len(face):
+        return np.zeros((0, 2), dtype=np.int64)
+    along = np.einsum("mi,mi->m", vertices[vertex], _directions(face, vertices[vertex]))
+    order = np.lexsort((along, face))
+    face, vertex = face[order], vertex[order]
+    joined = face[1:] == face[:-1]
+    return np.column_stack([vertex[:-1], vertex[1:]])[joined]
+
+
+def _directions(face, places) -> np.ndarray:
+    """For each row the vector from the middle of its face to the farthest place on it."""
+    first = np.flatnonzero(np.diff(face, prepend=-1))
+    size = np.diff(first, append=len(face))
+    offset = places - np.repeat(np.add.reduceat(places, first) / size[:, None], size, axis=0)
+    far = (offset**2).sum(axis=1)
+    farthest = np.lexsort((far, face))[np.cumsum(size) - 1]
+    return np.repeat(offset[farthest], size, axis=0)
+
+
+def _polygons(faces: _Faces, vertices, corners) -> tuple[Polygons, np.ndarray]:
+    """The convex polygons with three corners or more, in order, and the edges of those that are flat."""
+    face, vertex = faces.face, faces.vertex
+    if not len(face):
+        return Polygons(), np.zeros((0, 2), dtype=np.int64)
+    places = vertices[vertex]
+    first = np.flatnonzero(np.diff(face, prepend=-1))
+    size = np.diff(first, append=len(face))
+    offset = places - np.repeat(np.add.reduceat(places, first) / size[:, None], size, axis=0)
+    x = _directions(face, places)
+    normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
+    y = np.cross(normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)), x)
+    along, across = np.einsum("mi,mi->m", offset, x), np.einsum("mi,mi->m", offset, y)
+    extent = np.maximum.reduceat(np.abs(along), first)
+    solid = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
+    line = _Faces(faces.generators, face[~solid], vertex[~solid])
+    # The middle of a convex polygon is inside it, so its corners are in order as seen from there.
+    order = np.lexsort((np.arctan2(across, along)[solid], face[solid]))
+    ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
+    return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)
+
+
+def _sides(polygons: Polygons) -> np.ndarray:
+    """The sides of all polygons, (e, 2)."""
+    after = np.arange(1, len(polygons.corners) + 1)
+    ends = np.cumsum(polygons.sizes)
+    after[ends - 1] = ends - polygons.sizes
+    return (
+        np.column_stack([polygons.corners, polygons.corners[after]]) if len(after) else np.zeros((0, 2), int)
+    )

@@ -1,0 +1,203 @@
+"""The power diagram of balls through its dual, the weighted Delaunay triangulation, and their dual shape.
+
+A union of k balls is decided by few pairs and triples of them: those whose power cells meet. Everything about
+polyballs (appendix A) that would otherwise look at all triples is read off this triangulation.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from .errors import TessellationError
+
+_CHUNK = 4_000_000  # point-simplex pairs looked at together: bounds the memory, not the result
+
+
+class PowerTriangulation(NamedTuple):
+    """Weighted Delaunay triangulation of balls and of N + 1 far ghost points that enclose them.
+
+    The ghosts have no ball. No power cell of theirs meets the union of the balls, so they change nothing in
+    it; but with them every ball has a bounded cell, whatever the number and the position of the balls.
+
+    Attributes
+    ----------
+    points : (k + N + 1, N) float array
+        Centres, then ghosts, all minus ``origin``.
+    origin : (N,) float array
+    simplices : (t, N+1) int array
+        Without the hidden balls, whose power cell is empty. Not oriented.
+    neighbors : (t, N+1) int array
+        The simplex opposite each corner, -1 outside the ghosts.
+    orthocenters : (t, N) float array
+        Minus ``origin``.
+    power : (t,) float array
+        Square of the orthoradius: the power that all corners give to the orthocentre.
+    count : int
+        k: indices from k on are ghosts.
+    """
+
+    points: np.ndarray
+    origin: np.ndarray
+    simplices: np.ndarray
+    neighbors: np.ndarray
+    orthocenters: np.ndarray
+    power: np.ndarray
+    count: int
+
+    def real(self) -> np.ndarray:
+        """Which simplices have no ghost, (t,) bool array.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> balls = power_triangulation(np.array([(0.0, 0), (1, 0), (0, 1)]), np.ones(3))
+        >>> int(balls.real().sum())
+        1
+        """
+        return (self.simplices < self.count).all(axis=1)
+
+    def faces(self, size: int) -> np.ndarray:
+        """All pairs (size 2) or triples (size 3) of balls whose power cells meet, sorted, (m, size).
+
+        Size 1: all balls that are not hidden.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> balls = power_triangulation(np.array([(0.0, 0), (1, 0), (0, 1)]), np.ones(3))
+        >>> balls.faces(2).tolist(), balls.faces(3).tolist()
+        ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
+        """
+        corners = self.simplices.shape[1]
+        columns = list(combinations(range(corners), size))
+        rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
+        rows = rows[rows[:, -1] < self.count]
+        return np.unique(rows, axis=0) if len(rows) else rows
+
+    def in_dual_shape(self, queries: np.ndarray) -> np.ndarray:
+        """Whether points lie in a full simplex of the dual shape (one of negative power), (m,) bool array.
+
+        There, and only there, the nearest points of the boundary of the union are singular points while the
+        queries are not on the simplices of lower dimension.
+
+        Parameters
+        ----------
+        queries : (m, N) float array
+
+        References
+        ----------
+        Amenta and Kolluri, The medial axis of a union of balls, 2001, section 4.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> balls = power_triangulation(np.array([(0.0, 0), (1, 0), (0, 1)]), np.ones(3))
+        >>> balls.in_dual_shape(np.array([(0.3, 0.3), (0.9, 0.9)])).tolist()
+        [True, False]
+        """
+        queries = queries - self.origin
+        # The lifted triangulation is convex: over a query, the highest of all planes is that of its simplex.
+        height = (self.orthocenters**2).sum(axis=1) - self.power
+        inside = np.zeros(len(queries), dtype=bool)
+        negative = (self.power < 0) & self.real()
+        step = max(1, _CHUNK // len(self.simplices))
+        for first in range(0, len(queries), step):
+            rows = slice(first, first + step)
+            best = (2 * queries[rows] @ self.orthocenters.T - height).argmax(axis=1)
+            inside[rows] = negative[best]
+        return inside
+
+
+def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangulation:
+    """Triangulate balls so that no ball's centre is nearer, in power, to an orthocentre than its own corners.
+
+    Parameters
+    ----------
+    centers : (k, N) float array
+    radii : (k,) float array
+
+    Raises
+    ------
+    TessellationError
+        If Qhull gives up.
+
+    References
+    ----------
+    Aurenhammer, Power diagrams: properties, algorithms and applications, 1987; Edelsbrunner, The union of
+    balls and its dual shape, 1995.
+
+    Examples
+    --------
+    The small ball inside the large one is hidden:
+
+    >>> import numpy as np
+    >>> balls = power_triangulation(np.array([(0.0, 0), (0.1, 0), (3, 0)]), np.array([2, 0.5, 2]))
+    >>> balls.faces(2).tolist()
+    [[0, 2]]
+    """
+    origin = (centers.min(axis=0) + centers.max(axis=0)) / 2
+    points = centers - origin
+    size = float((np.sqrt((points**2).sum(axis=1)) + radii).max())
+    return regular_triangulation(points, radii**2, origin, size)
+
+
+def regular_triangulation(points, weights, origin, size: float) -> PowerTriangulation:
+    """Triangulate weighted points within distance `size` of 0, with ghosts around them.
+
+    Parameters
+    ----------
+    points : (k, N) float array
+    weights : (k,) float array
+    origin : (N,) float array
+        Kept for the caller, not used.
+    size : float
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = regular_triangulation(np.array([(0.0, 0), (1, 0)]), np.zeros(2), np.zeros(2), 1.0)
+    >>> t.faces(2).tolist()
+    [[0, 1]]
+    """
+    n = points.shape[1]
+    ghosts = _GHOSTS[n] * size
+    points = np.concatenate([points, ghosts])
+    weights = np.append(weights, np.zeros(n + 1))
+    height = (points**2).sum(axis=1) - weights
+    try:
+        hull = ConvexHull(np.column_stack([points / size, height / size**2]))
+    except QhullError as error:
+        raise TessellationError(
+            f"Qhull could not triangulate these balls: {str(error).splitlines()[0]}"
+        ) from None
+    down = hull.equations[:, n]
+    lower = down < -1e-12
+    number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
+    slope = hull.equations[lower, :n] / (-2 * down[lower, None])
+    power = (slope**2).sum(axis=1) + hull.equations[lower, n + 1] / -down[lower]
+    return PowerTriangulation(
+        points=points,
+        origin=origin,
+        simplices=hull.simplices[lower],
+        neighbors=number[hull.neighbors[lower]],
+        orthocenters=slope * size,
+        power=power * size**2,
+        count=len(points) - n - 1,
+    )
+
+
+def _simplex_around_the_unit_ball(n: int) -> np.ndarray:
+    """Corners of a simplex with a ball of radius 5 inside it, turned so that no data is in line with it."""
+    corners = np.eye(n + 1) - 1 / (n + 1)
+    basis = np.linalg.svd(corners)[2][:n]
+    corners = corners @ basis.T
+    corners *= 5 * n / np.sqrt((corners**2).sum(axis=1, keepdims=True))
+    turn, _ = np.linalg.qr(np.cos(np.arange(1.0, n * n + 1).reshape(n, n)))
+    return corners @ turn.T
+
+
+_GHOSTS = {n: _simplex_around_the_unit_ball(n) for n in (2, 3)}
