@@ -4,6 +4,7 @@ from . import datasets, implicit
 from .branches import branch_graph
 from .complexes import Skeleton
 from .conforming import conform, missing_facets
+from .delaunay_balls import Sk2Conditions, delaunay_balls, sk2_conditions
 from .delaunay_shapes import DelaunayShape, delaunay_shape
 from .distances import directed_hausdorff, hausdorff
 from .errors import (
@@ -34,6 +35,7 @@ __all__ = [
     "ReconstructionError",
     "Shape",
     "ShapeError",
+    "Sk2Conditions",
     "Skeleton",
     "TangentBallsError",
     "Tessellation",
@@ -42,6 +44,7 @@ __all__ = [
     "conform",
     "datasets",
     "delaunay",
+    "delaunay_balls",
     "delaunay_shape",
     "directed_hausdorff",
     "gabriel",
@@ -53,6 +56,7 @@ __all__ = [
     "sk0",
     "sk1",
     "sk2",
+    "sk2_conditions",
     "sk3",
     "voronoi",
 ]
