@@ -36,7 +36,8 @@ class Layer:
         Segments, or open polylines.
     points : (k, 2) array
     circles : (centers (k, 2), radii (k,))
-        Filled together, so that overlapping discs are one area.
+        Filled together, so that overlapping discs are one area with one outline; without `fill`
+        each has its own.
     arcs : (centers (k, 2), radii (k,), start (k,), end (k,))
         Angles in radians, counter-clockwise from start to end, as in `Polyball.arcs`.
     text : list of (x, y, str)
@@ -45,7 +46,7 @@ class Layer:
     fill, stroke : bool
         Whether polygons and circles are filled, and whether they have an outline.
     rule : "evenodd" or "nonzero"
-        Which parts of overlapping polygons are inside.
+        Which parts of overlapping polygons are inside; "evenodd" leaves out holes.
     opacity, width : float
         Between 0 and 1; factor of the kind's line width and marker size.
     order : float or None
@@ -124,15 +125,17 @@ def fragment(layer: Layer, view: View) -> str:
     '<path d="M3200 1600h0" fill="none" stroke="#000000" stroke-width="47" stroke-linecap="round"/>'
     """
     kind = kind_of(layer.kind)
-    areas = _polygons(layer.polygons, view) + _circles(*layer.circles, view)
-    # A shape's rings leave out holes, overlapping discs do not.
-    rule = "nonzero" if len(layer.circles[0]) else layer.rule
     lines = _lines(layer.lines, view) + _arcs(*layer.arcs, view)
     parts = []
-    if areas:
-        paint = f'fill="{kind.fill or kind.color}" fill-rule="{rule}"' if layer.fill else 'fill="none"'
-        pen = f" {_pen(kind, layer.width)}" if layer.stroke else ""
+    pen = f" {_pen(kind, layer.width)}" if layer.stroke else ""
+    if areas := _polygons(layer.polygons, view):
+        paint = f'fill="{kind.fill or kind.color}" fill-rule="{layer.rule}"' if layer.fill else 'fill="none"'
         parts.append(f'<path d="{areas}" {paint}{pen}/>')
+    if discs := _circles(*layer.circles, view):
+        # Outlines first, twice as wide, then all insides over them: the outline of the union is left.
+        paint = f'fill="{kind.fill or kind.color}" paint-order="stroke"' if layer.fill else 'fill="none"'
+        outline = f" {_pen(kind, 2 * layer.width if layer.fill else layer.width)}" if layer.stroke else ""
+        parts.append(f'<path d="{discs}" {paint}{outline}/>')
     if lines:
         parts.append(f'<path d="{lines}" fill="none" {_pen(kind, layer.width)}/>')
     if len(layer.points):

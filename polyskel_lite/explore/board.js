@@ -67,6 +67,7 @@ function render({ model, el }) {
 
   function hear(message) {
     if (message.type !== "answer" || message.serial !== serial || !sent) return;
+    root.dataset.reply = (performance.now() - sent).toFixed(1);
     answered = sent;
     sent = 0;
     tell();

@@ -164,9 +164,10 @@ class Board(anywidget.AnyWidget):
         """
         if name not in self.layers:
             raise InputError(f"there is no layer {name!r}; there are {', '.join(self.layers) or 'none'}.")
-        self._seen[name] = bool(visible)
-        self._show(name)
-        self._arrange()
+        if self._seen[name] != bool(visible):
+            self._seen[name] = bool(visible)
+            self._show(name)
+            self._arrange()
 
     def visible(self, name: str) -> bool:
         """Whether a layer is there and shown.

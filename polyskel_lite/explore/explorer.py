@@ -66,9 +66,12 @@ class Explorer(ipywidgets.VBox):
         self._drawing = False
         hint = ipywidgets.HTML(f"<p style='margin:0;line-height:1.5'>{html.escape(look_for)}</p>")
         for control in self.controls.values():
+            if not hasattr(control, "value"):  # a button: it observes its clicks itself
+                continue
             # Labels are read in full, whatever their length.
             control.style = {"description_width": "initial"}
-            control.layout.width = "26em" if hasattr(control, "max") else "auto"
+            room = 0.6 * len(control.description)
+            control.layout.width = f"{18 + room:.0f}em" if hasattr(control, "max") else "auto"
             control.layout.margin = "2px 16px 2px 0"
             control.observe(self._changed, "value")
         board.observe(self._changed, "handles")
@@ -121,8 +124,8 @@ class Explorer(ipywidgets.VBox):
     def tell(self, remark: str = "", /, **numbers) -> None:
         """Set `numbers`, and the line under the board to a remark and the numbers with their names."""
         self.numbers = numbers
-        parts = [f"{name.replace('_', ' ')} {said(value)}" for name, value in numbers.items()]
-        self.board.text = " · ".join([remark, *parts] if remark else parts)
+        line = " · ".join(f"{name.replace('_', ' ')} {said(value)}" for name, value in numbers.items())
+        self.board.text = f"{remark} {line}".strip()
 
     def stand_in(self) -> str:
         """HTML of the picture and the sentences for a page without a kernel.

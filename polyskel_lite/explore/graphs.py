@@ -71,7 +71,7 @@ class Graphs(Explorer):
         board.draw("ball", "balls", circles=(center, radius), label="ball of one triangle")
         board.draw("center", "voronoi", points=center, width=2)
         board.alt = (
-            f"{len(graph.points)} dots to move, graphs: {', '.join(_WORDS[name] for name in chosen) or 'none'}"
+            f"{len(graph.points)} dots; graphs: {', '.join(_WORDS[name] for name in chosen) or 'none'}"
             + (f"; the empty disc through the corners of triangle {number}." if len(radius) else ".")
         )
         self.tell(

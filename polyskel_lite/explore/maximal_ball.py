@@ -13,8 +13,8 @@ from .board import Board, box_around
 from .explorer import Explorer
 
 #: Distinct contacts are found up to this share of the radius, and a centre counts as on the skeleton when
-#: it is nearer to it than this share of the picture's width (two pixels).
-TOUCH, SNAP = 1e-6, 2 / 640
+#: it is nearer to it than this share of the picture's width (three pixels).
+TOUCH, SNAP = 1e-6, 3 / 640
 
 
 class MaximalBall(Explorer):
@@ -34,9 +34,7 @@ class MaximalBall(Explorer):
         rings = [self.shape.points[ring] for ring in self.shape.rings()]
         board.draw("shape", "shape", polygons=rings, label="shape X")
         controls = {
-            "growth": ipywidgets.FloatSlider(
-                1.0, min=0, max=1, step=0.02, description="growth (1: until it is maximal)"
-            ),
+            "growth": ipywidgets.FloatSlider(1.0, min=0, max=1, step=0.02, description="growth"),
             "trace": ipywidgets.Checkbox(
                 False, description="keep the centres of maximal balls", indent=False
             ),
@@ -56,10 +54,11 @@ class MaximalBall(Explorer):
             self._seen.clear()
         self._draw_skeleton(skeleton)
         start = np.array(board.handles[0])
+        seen = "centres of maximal balls" if trace else None
         if shape.locate([start])[0] <= 0:
             for name in ("ball", "contacts", "way"):
                 board.draw(name, "samples")
-            board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)))
+            board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)), width=1.5, label=seen)
             board.alt = "A shape; the chosen centre is not inside it."
             self.tell("No ball: the centre is not inside the shape. Drag it back in.")
             return
@@ -75,7 +74,7 @@ class MaximalBall(Explorer):
         board.draw("ball", "balls", circles=([here], [size]), label="ball")
         board.draw("contacts", "samples", points=contacts, width=2.5, label="contacts")
         board.draw("way", "samples", lines=[[start, here]], width=1.5)
-        board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)), width=1.5)
+        board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)), width=1.5, label=seen)
         if maximal:
             remark = "The centre is on the skeleton: its ball is maximal, it cannot grow."
         elif share == 1:
@@ -96,7 +95,7 @@ class MaximalBall(Explorer):
 
     def _draw_skeleton(self, wanted: bool) -> None:
         if wanted and "skeleton" not in self.board.layers:
-            self.board.draw("skeleton", "sk2", lines=sk2(self.shape).segments(), label="Sk_2")
+            self.board.draw("skeleton", "sk2", lines=sk2(self.shape).segments(), label="Sk_2 of the corners")
         elif "skeleton" in self.board.layers:
             self.board.show("skeleton", wanted)
 
@@ -152,6 +151,11 @@ def grow(shape: Shape, center) -> tuple[float, np.ndarray, float]:
     center : (2,) float array
     radius of the maximal ball : float
 
+    References
+    ----------
+    The shrinking ball of J. Ma, S. W. Bae, S. Choi, 3D medial axis point approximation using nearest
+    neighbors and the normal field, 2012.
+
     Examples
     --------
     >>> from polyskel_lite import Shape
@@ -164,15 +168,17 @@ def grow(shape: Shape, center) -> tuple[float, np.ndarray, float]:
     first = distances.argmin()
     radius = float(distances[first])
     away = (center - feet[first]) / radius
-    low, high = 0.0, float(np.ptp(shape.points, axis=0).sum())
-    # The ball around center + t * away with radius + t is in the shape up to one t, and never after it.
-    for _ in range(7):
-        t = np.linspace(low, high, 33)
-        inside = shape.boundary_distance(center + t[:, None] * away) >= (radius + t) * (1 - 1e-12)
-        inside[0] = True
-        k = int(np.flatnonzero(inside)[-1])
-        low, high = float(t[k]), float(t[min(k + 1, 32)])
-    return radius, center + low * away, radius + low
+    # The ball around center + t * away with radius + t keeps its first contact. Shrink it to the nearest
+    # point of the boundary as long as that is inside.
+    t = float(np.ptp(shape.points, axis=0).sum())
+    for _ in range(100):
+        feet, distances = _feet(shape, center + t * away)
+        nearest = distances.argmin()
+        if distances[nearest] >= (radius + t) * (1 - 1e-12):
+            break
+        gap = center - feet[nearest]
+        t = max(0.0, float((gap @ gap - radius**2) / (2 * (radius - gap @ away))))
+    return radius, center + t * away, radius + t
 
 
 def _feet(shape: Shape, center: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

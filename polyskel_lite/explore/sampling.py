@@ -57,15 +57,8 @@ class Sampling(Explorer):
         radius = self.shape.covering_radius(graph.points)
         board.draw("samples", "samples", points=graph.points, label="samples E")
         board.draw("skeleton", "sk2", lines=skeleton.segments(), label="Sk_2")
-        if polyball and len(skeleton.vertices):
-            Y = skeleton.balls()
-            ball, start, end = Y.arcs()
-            arcs = Y.centers[ball], Y.radii[ball], start, end
-            board.draw(
-                "polyball", "balls", circles=(Y.centers, Y.radii), arcs=arcs, stroke=False, label="Y_w"
-            )
-        else:
-            board.draw("polyball", "balls")
+        Y = skeleton.balls() if polyball and len(skeleton.vertices) else None
+        board.draw("polyball", "balls", circles=(Y.centers, Y.radii) if Y else ([], []), label="Y_w")
         betti = skeleton.betti()
         board.alt = (
             f"A shape, {len(graph.points)} samples, skeleton Sk2 of {betti[0]} pieces and {betti[1]} loops"
