@@ -25,8 +25,8 @@ class Polygons(Sequence):
     """
 
     def __init__(self, corners=(), sizes=()):
-        self.corners = np.asarray(corners, dtype=np.int64)
-        self.sizes = np.asarray(sizes, dtype=np.int64)
+        self.corners = np.asarray(corners, dtype=np.intp)
+        self.sizes = np.asarray(sizes, dtype=np.intp)
         self._ends = np.cumsum(self.sizes)
 
     @classmethod

@@ -1,0 +1,99 @@
+"""Build a JupyterLite site: the chapters and the library in the reader's browser, nothing to install (`make lite`).
+
+    .venv/bin/python tools/build_lite.py [--output _build/lite] [--pyodide FOLDER] [--wheels FOLDER]
+
+The chapters as committed stay untouched. Their copies in the site begin with two cells more: a note, and a line that
+fetches the library from the site itself. Python for the browser (Pyodide) comes from the address that
+jupyterlite-pyodide-kernel has built in; with --pyodide, from a folder that is copied into the site.
+"""
+
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+
+ROOT = Path(__file__).resolve().parent.parent
+FILES = ROOT / "_build" / "lite_files"  # what `jupyter lite` reads: files/, pypi/, static/pyodide/
+
+# Chapters read these beside themselves, or link to them.
+BESIDE = ["notebooks/claims.toml", "polyskel_lite/**/*.py", "tests/test_claims.py", "tests/claims/*.py", "benchmarks/*"]
+
+NOTE = """\
+```{{admonition}} Python in your browser
+:class: note
+This copy of the chapter runs on your own machine, inside this page: nothing is installed, nothing is sent to a server.
+Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and Matplotlib: some 30 MB, which
+the browser keeps. Cells take two to ten times as long as on the command line. {missing}
+```"""
+
+# A browser has no numba and no processes. What that means is said where a reader would wonder.
+SLOW = "Without numba the hierarchy of a large solid takes up to a minute; its numbers are the same."
+MISSING = {
+    "03_6_complexity": "The times that this chapter measures are the browser's; compare shapes of curves, not seconds.",
+}
+
+
+def requirements(code: str) -> list[str]:
+    """What a chapter needs beyond the library's own requirements, for `%pip install`."""
+    files = re.search(r"\b(from_file|to_file|bring_your_own|explore\.explore)\b", code)
+    widgets = re.search(r"\bexplore\b", code)
+    library = "polyskel-lite[graph,files,meshes]" if files else "polyskel-lite[graph]"
+    return [library, *(["ipywidgets", "anywidget"] if widgets else [])]
+
+
+def browser_copy(notebook: nbformat.NotebookNode, stem: str) -> nbformat.NotebookNode:
+    """The chapter with the two cells that a browser needs in front."""
+    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
+    missing = MISSING.get(stem, SLOW if "hierarchy(" in code else "")
+    note = nbformat.v4.new_markdown_cell(NOTE.format(missing=missing).replace(" \n", "\n"), id="in-your-browser")
+    install = nbformat.v4.new_code_cell("%pip install -q " + " ".join(requirements(code)), id="fetch-the-library")
+    notebook.cells[:0] = [note, install]
+    return notebook
+
+
+def write_files(folder: Path) -> None:
+    """Lay out the chapters and what they read, each at its place in the repository."""
+    for pattern in ["notebooks/*.ipynb", *BESIDE]:
+        for path in sorted(ROOT.glob(pattern)):
+            if path.is_file():
+                target = folder / path.relative_to(ROOT)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                if path.suffix == ".ipynb":
+                    nbformat.write(browser_copy(nbformat.read(path, as_version=4), path.stem), target)
+                else:
+                    shutil.copyfile(path, target)
+
+
+def run(*command: str, folder: Path = ROOT) -> None:
+    """Run a command of this environment and show what it said only if it failed."""
+    done = subprocess.run([sys.executable, "-m", *command], cwd=folder, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"`{' '.join(command[:3])}` failed:\n{done.stdout}{done.stderr}")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=Path, default=ROOT / "_build" / "lite", help="where the site goes")
+    parser.add_argument("--pyodide", type=Path, help="folder of an unpacked Pyodide, served by the site itself")
+    parser.add_argument("--wheels", type=Path, help="folder of more wheels (py3-none-any) that the site serves")
+    options = parser.parse_args()
+    for folder in (FILES, options.output):
+        shutil.rmtree(folder, ignore_errors=True)
+    write_files(FILES / "files")
+    run("build", "--wheel", "--no-isolation", "--outdir", str(FILES / "pypi"), ".")
+    for wheel in sorted(options.wheels.glob("*-none-any.whl")) if options.wheels else []:
+        shutil.copy(wheel, FILES / "pypi")
+    if options.pyodide:
+        (FILES / "static").mkdir()
+        (FILES / "static" / "pyodide").symlink_to(options.pyodide.resolve(), target_is_directory=True)
+    lean = ["--apps", "lab", "--no-sourcemaps", "--no-unused-shared-packages"]
+    run("jupyterlite_core", "build", "--output-dir", str(options.output.resolve()), *lean, folder=FILES)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
