@@ -17,6 +17,7 @@ from ._incidence import Incidence
 from ._polygons import Polygons
 from .complexes import Skeleton
 from .power import PowerTriangulation, regular_triangulation
+from .spheres import strictly_inside
 from .topology import components
 
 # Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one.
@@ -160,6 +161,7 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
     largest[part[outside]] = -1
     tested = np.flatnonzero(largest >= 0)
     inside[tested] = power.in_dual_shape(place[largest[tested]] + power.origin)
+    inside[tested] &= strictly_inside(place[largest[tested]], centers, radii, _SAME)
     pairs = number[sides[free]]
     pairs = pairs[(pairs >= 0).all(axis=1)]
     twins = pairs[_distance(place, pairs) <= _SAME * size[pairs].min(axis=1)]

@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 from .polyballs import Polyball
 from .skeletons import sk1, sk2
 
-# Two places are one when they are nearer than this share of the smallest ball there. Crossings of spheres that
-# nearly coincide, as around almost cocircular samples, are not known better than to about 1e-8 of the radius.
+# Two places are one when they are nearer than this share of the smallest ball there. Crossings of spheres
+# that nearly coincide, as around almost cocircular samples, are known to about 1e-8 of the radius.
 _OFF = 1e-6
 
 

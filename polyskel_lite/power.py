@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from .errors import TessellationError
 
+_ZERO = 1e-9  # powers below this share of the largest squared radius are 0
 _CHUNK = 4_000_000  # point-simplex pairs looked at together: bounds the memory, not the result
 
 
@@ -27,6 +28,8 @@ class PowerTriangulation(NamedTuple):
     ----------
     points : (k + N + 1, N) float array
         Centres, then ghosts, all minus ``origin``.
+    weights : (k + N + 1,) float array
+        Squared radii; 0 for ghosts.
     origin : (N,) float array
     simplices : (t, N+1) int array
         Without the hidden balls, whose power cell is empty. Not oriented.
@@ -41,6 +44,7 @@ class PowerTriangulation(NamedTuple):
     """
 
     points: np.ndarray
+    weights: np.ndarray
     origin: np.ndarray
     simplices: np.ndarray
     neighbors: np.ndarray
@@ -82,7 +86,8 @@ class PowerTriangulation(NamedTuple):
         """Whether points lie in a full simplex of the dual shape (one of negative power), (m,) bool array.
 
         There, and only there, the nearest points of the boundary of the union are singular points while the
-        queries are not on the simplices of lower dimension.
+        queries are not on the simplices of lower dimension. Power 0, up to rounding, counts: its balls meet
+        in one point, which they surround, for a query that is in the union at all and not next to that point.
 
         Parameters
         ----------
@@ -103,7 +108,8 @@ class PowerTriangulation(NamedTuple):
         # The lifted triangulation is convex: over a query, the highest of all planes is that of its simplex.
         height = (self.orthocenters**2).sum(axis=1) - self.power
         inside = np.zeros(len(queries), dtype=bool)
-        negative = (self.power < 0) & self.real()
+        zero = _ZERO * self.weights[self.simplices].max(axis=1)
+        negative = (self.power < zero) & self.real()
         step = max(1, _CHUNK // len(self.simplices))
         for first in range(0, len(queries), step):
             rows = slice(first, first + step)
@@ -181,6 +187,7 @@ def regular_triangulation(points, weights, origin, size: float) -> PowerTriangul
     power = (slope**2).sum(axis=1) + hull.equations[lower, n + 1] / -down[lower]
     return PowerTriangulation(
         points=points,
+        weights=weights,
         origin=origin,
         simplices=hull.simplices[lower],
         neighbors=number[hull.neighbors[lower]],
