@@ -8,7 +8,7 @@ import numpy as np
 from ..complexes import Skeleton
 from ..datasets import load
 from ..delaunay_shapes import delaunay_shape
-from ..errors import InputError, PolyskelError
+from ..errors import ContourContainmentError, InputError, PolyskelError, ShapeError
 from ..graphs import delaunay
 from ..shapes import Shape, check_shape
 from ..skeletons import sk0, sk1, sk2, sk3
@@ -59,48 +59,54 @@ class FourMethods(Explorer):
         n, start = (self.controls[name].value for name in ("n", "start"))
         graph = delaunay(self.shape.sample(n, start))  # once for three of them
         found = {f.__name__: f(self.shape, graph) for f in (sk1, sk2, sk3)}
+        self._missing = np.empty((0, 2, 2))
         try:
-            found["sk0"] = sk0(delaunay_shape(self.shape.resample(n, start)))
-        except PolyskelError as error:  # a side is not in Del(E), or the polygon crosses itself
+            polygon = self.shape.resample(n, start)
+            found["sk0"] = sk0(delaunay_shape(polygon))
+        except ContourContainmentError as error:
+            self._missing = polygon.segments[error.missing]
+            found["sk0"] = error
+        except ShapeError as error:  # so few samples that the polygon crosses itself
             found["sk0"] = error
         return found
 
     def draw(self) -> None:
         board, found = self.board, self.skeletons()
-        E = found["sk1"].tessellation.points
-        board.draw(
-            "samples", "samples", points=np.concatenate([E + o for o in self.offsets.values()]), width=0.7
-        )
-        lines, numbers = [], {}
+        E, betti = found["sk1"].tessellation.points, self.shape.betti()
+        everywhere = np.concatenate([E + offset for offset in self.offsets.values()])
+        board.draw("samples", "samples", points=everywhere, width=0.7)
+        words = {}
         for name in _NAMES:
-            heading = self._heading + self.offsets[name]
-            skeleton, word = found[name], f"Sk{name[2]}"
-            if isinstance(skeleton, PolyskelError):
-                numbers[word], said = None, "none: not all sides are Delaunay"
-                board.draw(name, name)
-            else:
-                numbers[word] = {
-                    "vertices": len(skeleton.vertices),
-                    "edges": len(skeleton.edges),
-                    "betti": skeleton.betti(),
-                }
-                said = "{vertices} vertices, {edges} edges, Betti {betti}".format(**numbers[word])
-                points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
-                board.draw(
-                    name,
-                    name,
-                    lines=skeleton.segments() + self.offsets[name],
-                    points=points,
-                    label=f"Sk_{name[2]}",
-                )
-            lines.append(f"{word}: {said}")
-            board.draw(f"heading_{name}", "samples", text=[(*heading, lines[-1])])
-        betti = self.shape.betti()
-        board.alt = (
-            f"Four pictures of a shape with {len(E)} samples and a skeleton: " + "; ".join(lines) + "."
-        )
-        self.numbers = numbers | {"shape": betti, "n": len(E)}
-        self.board.text = f"shape: Betti {betti} · " + " · ".join(lines)
+            words[name] = f"Sk{name[2]}: {self._draw_one(name, found[name])}"
+            heading = (*(self._heading + self.offsets[name]), words[name])
+            board.draw(f"heading_{name}", "samples", text=[heading])
+        shift = self.offsets["sk0"]
+        label = "sides that are not Delaunay" if len(self._missing) else None
+        board.draw("missing", "samples", lines=self._missing + shift, width=3, label=label)
+        skeletons = "; ".join(words.values())
+        board.alt = f"Four pictures of a shape with {len(E)} samples and a skeleton: {skeletons}."
+        self.numbers = {f"Sk{name[2]}": _counts(found[name]) for name in _NAMES} | {
+            "shape": betti,
+            "n": len(E),
+        }
+        board.text = f"Shape: Betti {betti}. " + " · ".join(words.values())
+
+    def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError) -> str:
+        """Draw one skeleton in its own picture, and say its numbers."""
+        if isinstance(skeleton, PolyskelError):
+            self.board.draw(name, name)
+            crossing = "none, the polygon through the samples crosses itself"
+            return f"none, {len(self._missing)} sides are not Delaunay" if len(self._missing) else crossing
+        lines, label = skeleton.segments() + self.offsets[name], f"Sk_{name[2]}"
+        points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
+        self.board.draw(name, name, lines=lines, points=points, label=label)
+        return "{vertices} vertices, {edges} edges, Betti {betti}".format(**_counts(skeleton))
+
+
+def _counts(skeleton: Skeleton | PolyskelError) -> dict | None:
+    if isinstance(skeleton, PolyskelError):
+        return None
+    return {"vertices": len(skeleton.vertices), "edges": len(skeleton.edges), "betti": skeleton.betti()}
 
 
 def four_methods(shape: Shape | None = None, n: int = 96, start: float = 0.7) -> FourMethods:
