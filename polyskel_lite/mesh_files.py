@@ -60,6 +60,12 @@ def read_mesh(path: str | PathLike, turn: bool = False) -> Shape:
         raise InputError(f"the mesh cannot be read ({error}); save it again.") from None
     if not len(vertices) or not len(faces):
         raise InputError("there is no triangle in it; save the surface, not only its points.")
+    wrong = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
+    if len(wrong):
+        raise InputError(
+            f"face {wrong[0]} has the corners {faces[wrong[0]].tolist()}, and there are {len(vertices)} "
+            "vertices, numbered from 0; save it again."
+        )
     return Shape.from_mesh(*_merged(vertices, faces), turn=turn)
 
 

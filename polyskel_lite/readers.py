@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+import zlib
 from collections.abc import Iterator
 from numbers import Real
 from os import PathLike
@@ -24,6 +25,11 @@ from .shapes import Shape
 from .svg import svg_rings
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".pgm", ".pbm", ".ppm")
+# What np.load raises for a file that is cut short, has a byte changed, or is none of its files at all.
+_BROKEN_ARRAYS = (
+    *(OSError, ValueError, TypeError, IndexError, EOFError, NotImplementedError, RuntimeError),
+    *(zipfile.BadZipFile, zlib.error),
+)
 # Values nearer to the level than this share of the largest difference are moved away from it.
 _NUDGE = 1e-4
 
@@ -226,7 +232,7 @@ def _read_picture(path: Path, level: float, smooth: float, invert: bool) -> Shap
 
 def _picture_values(path: Path) -> tuple[np.ndarray, str]:
     """The opacity of a picture with transparent pixels, the darkness of another one; from 0 to 1."""
-    from PIL import Image
+    from PIL import Image, UnidentifiedImageError
 
     try:
         with Image.open(path) as picture:
@@ -234,6 +240,8 @@ def _picture_values(path: Path) -> tuple[np.ndarray, str]:
                 deep = np.asarray(picture, dtype=np.float64)
                 return 1 - deep / max(float(deep.max()), 1.0), "dark"
             rgba = picture.convert("RGBA")
+    except UnidentifiedImageError:  # its own message has the whole path, which may be a temporary one
+        raise InputError("the picture cannot be opened (no known format); save it again, as PNG.") from None
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise InputError(f"the picture cannot be opened ({error}); save it again, as PNG.") from None
     opacity = np.asarray(rgba.getchannel("A"), dtype=np.float64) / 255
@@ -247,11 +255,11 @@ def _picture_values(path: Path) -> tuple[np.ndarray, str]:
 
 def _read_npz(path: Path) -> Shape:
     try:
-        with np.load(path) as data:
+        with path.open("rb") as stream, np.load(stream) as data:
             arrays = {name: data[name] for name in data.files}
         if {"xy", "off"} <= arrays.keys():
             rings = np.split(arrays["xy"], arrays["off"][1:-1])
-    except (OSError, ValueError, TypeError, IndexError, EOFError, zipfile.BadZipFile) as error:
+    except _BROKEN_ARRAYS as error:
         raise InputError(f"not a file of arrays of numbers ({error}); save it with numpy.savez.") from None
     if {"points", "facets"} <= arrays.keys():
         return Shape(arrays["points"], arrays["facets"])

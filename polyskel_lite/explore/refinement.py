@@ -171,7 +171,7 @@ class Refinement(Explorer):
 
     def __init__(self, shape: Shape):
         self.shape = shape
-        self._made: dict[str, list[Stage]] = {}
+        self._made: dict[str, list[Stage]] = {"gabriel": list(conform_stages(shape, "gabriel"))}
         graph = ipywidgets.Dropdown(
             options=[("Gabriel graph", "gabriel"), ("Delaunay triangulation", "delaunay")],
             description="graph to reach",
