@@ -10,7 +10,7 @@ UNFOLD = """() => {
     document.querySelectorAll("details").forEach((box) => (box.open = true));
     document.querySelectorAll("button.toggle-button-hidden").forEach((button) => button.click());
 }"""
-# preload would fetch the style sheets again (for one rule on turned screens), which a page on disk may not do.
+# preload would fetch the style sheets again, for one rule on turned screens; a page on disk may not do that.
 OPTIONS = {"preload": False, "resultTypes": ["violations"]}
 COLOURS = {"runOnly": ["color-contrast"]}
 STRUCTURE = {"rules": {"color-contrast": {"enabled": False}}}

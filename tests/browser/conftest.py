@@ -125,7 +125,8 @@ class Visit:
         self.page.on("request", lambda request: self.requests.append(request.url))
 
     def note(self, message) -> None:
-        if message.type in {"error", "warning", "assert"}:
+        about_speed = "GL Driver Message (OpenGL, Performance" in message.text  # drawing in software is slow
+        if message.type in {"error", "warning", "assert"} and not about_speed:
             self.complaints.append(f"console {message.type}: {message.text}")
 
     def outside(self) -> list[str]:
@@ -138,7 +139,7 @@ class Visit:
 
 
 def ready(page: "Page") -> None:
-    """Wait until the formulas are set and every skeleton viewer, once scrolled to, has drawn its first picture."""
+    """Wait until the formulas are set and every skeleton viewer, once scrolled to, has drawn a picture."""
     page.evaluate("async () => { await window.MathJax?.startup?.promise }")
     for viewer in page.locator(".psl-viewer").all():
         viewer.scroll_into_view_if_needed()
@@ -147,14 +148,18 @@ def ready(page: "Page") -> None:
 
 @pytest.fixture
 def visit(browser: "Browser") -> Iterator[Callable[..., Visit]]:
-    """visit(home, path, **context): a page in a fresh profile; keywords as for Playwright's `new_context`."""
+    """visit(home, path): a page in a fresh profile; keywords as for Playwright's `new_context`.
+
+    `before` is a script that runs in the page ahead of its own.
+    """
     with ExitStack() as stack:
 
-        def open_page(home: str, path: str, **context: object) -> Visit:
+        def open_page(home: str, path: str, before: str = "", **context: object) -> Visit:
             context = {"viewport": {"width": 1400, "height": 900}, "reduced_motion": "reduce"} | context
             profile = browser.new_context(**context)
             stack.callback(profile.close)
             visit = Visit(profile.new_page(), home)
+            visit.page.add_init_script(before)
             visit.page.goto(f"{home}/{path}")
             if context.get("java_script_enabled", True):
                 ready(visit.page)

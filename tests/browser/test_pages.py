@@ -29,7 +29,7 @@ def test_page_from_disk(visit, book, name):
     assert opened.page.evaluate(LOST) == []
     assert findings(opened.page) == []
     opened.page.emulate_media(color_scheme="dark")
-    assert opened.page.locator("html").get_attribute("data-theme") == "dark"
+    opened.page.locator("html[data-theme=dark]").wait_for()
     assert findings(opened.page, COLOURS) == []
     opened.assert_quiet()
 
