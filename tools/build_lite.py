@@ -1,10 +1,10 @@
-"""Build a JupyterLite site: the chapters and the library in the reader's browser, nothing to install (`make lite`).
+"""Build a JupyterLite site: chapters and library run in a browser, nothing to install (`make lite`).
 
     .venv/bin/python tools/build_lite.py [--output _build/lite] [--pyodide FOLDER] [--wheels FOLDER]
 
-The chapters as committed stay untouched. Their copies in the site begin with two cells more: a note, and a line that
-fetches the library from the site itself. Python for the browser (Pyodide) comes from the address that
-jupyterlite-pyodide-kernel has built in; with --pyodide, from a folder that is copied into the site.
+The chapters as committed stay untouched. Their copies in the site begin with two cells more: a note, and a
+line that fetches the library from the site itself. Python for the browser (Pyodide) comes from the address
+that jupyterlite-pyodide-kernel has built in; with --pyodide, from a folder that is copied into the site.
 """
 
 import argparse
@@ -17,23 +17,28 @@ from pathlib import Path
 import nbformat
 
 ROOT = Path(__file__).resolve().parent.parent
-FILES = ROOT / "_build" / "lite_files"  # what `jupyter lite` reads: files/, pypi/, static/pyodide/
 
 # Chapters read these beside themselves, or link to them.
-BESIDE = ["notebooks/claims.toml", "polyskel_lite/**/*.py", "tests/test_claims.py", "tests/claims/*.py", "benchmarks/*"]
+BESIDE = [
+    "notebooks/claims.toml",
+    "polyskel_lite/**/*.py",
+    "tests/test_claims.py",
+    "tests/claims/*.py",
+    "benchmarks/*",
+]
 
 NOTE = """\
 ```{{admonition}} Python in your browser
 :class: note
-This copy of the chapter runs on your own machine, inside this page: nothing is installed, nothing is sent to a server.
-Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and Matplotlib: some 30 MB, which
-the browser keeps. Cells take two to ten times as long as on the command line. {missing}
+This copy of the chapter runs on your own machine, in this page: nothing is installed, nothing is sent away.
+Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and Matplotlib, some
+30 MB that the browser keeps. Cells take two to ten times as long as in Python on your desktop.{missing}
 ```"""
 
-# A browser has no numba and no processes. What that means is said where a reader would wonder.
-SLOW = "Without numba the hierarchy of a large solid takes up to a minute; its numbers are the same."
+# A browser has no numba. What that means is said where a reader would wonder.
+SLOW = " The hierarchy of a large solid, compiled there, takes up to a minute here; its numbers are the same."
 MISSING = {
-    "03_6_complexity": "The times that this chapter measures are the browser's; compare shapes of curves, not seconds.",
+    "03_6_complexity": " So do not compare the seconds measured here, but the shapes of the curves.",
 }
 
 
@@ -49,9 +54,11 @@ def browser_copy(notebook: nbformat.NotebookNode, stem: str) -> nbformat.Noteboo
     """The chapter with the two cells that a browser needs in front."""
     code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
     missing = MISSING.get(stem, SLOW if "hierarchy(" in code else "")
-    note = nbformat.v4.new_markdown_cell(NOTE.format(missing=missing).replace(" \n", "\n"), id="in-your-browser")
-    install = nbformat.v4.new_code_cell("%pip install -q " + " ".join(requirements(code)), id="fetch-the-library")
-    notebook.cells[:0] = [note, install]
+    install = "%pip install -q " + " ".join(requirements(code))
+    notebook.cells[:0] = [
+        nbformat.v4.new_markdown_cell(NOTE.format(missing=missing), id="in-your-browser"),
+        nbformat.v4.new_code_cell(install, id="fetch-the-library"),
+    ]
     return notebook
 
 
@@ -78,20 +85,24 @@ def run(*command: str, folder: Path = ROOT) -> None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", type=Path, default=ROOT / "_build" / "lite", help="where the site goes")
-    parser.add_argument("--pyodide", type=Path, help="folder of an unpacked Pyodide, served by the site itself")
-    parser.add_argument("--wheels", type=Path, help="folder of more wheels (py3-none-any) that the site serves")
+    parser.add_argument("--pyodide", type=Path, help="folder of an unpacked Pyodide to serve with it")
+    parser.add_argument("--wheels", type=Path, help="folder of more wheels to serve (py3-none-any)")
     options = parser.parse_args()
-    for folder in (FILES, options.output):
+    output = options.output.resolve()
+    source = output.with_name(
+        output.name + "_files"
+    )  # with what `jupyter lite` reads: files/, pypi/, static/
+    for folder in (source, output):
         shutil.rmtree(folder, ignore_errors=True)
-    write_files(FILES / "files")
-    run("build", "--wheel", "--no-isolation", "--outdir", str(FILES / "pypi"), ".")
+    write_files(source / "files")
+    run("build", "--wheel", "--no-isolation", "--outdir", str(source / "pypi"), ".")
     for wheel in sorted(options.wheels.glob("*-none-any.whl")) if options.wheels else []:
-        shutil.copy(wheel, FILES / "pypi")
+        shutil.copy(wheel, source / "pypi")
     if options.pyodide:
-        (FILES / "static").mkdir()
-        (FILES / "static" / "pyodide").symlink_to(options.pyodide.resolve(), target_is_directory=True)
+        (source / "static").mkdir()
+        (source / "static" / "pyodide").symlink_to(options.pyodide.resolve(), target_is_directory=True)
     lean = ["--apps", "lab", "--no-sourcemaps", "--no-unused-shared-packages"]
-    run("jupyterlite_core", "build", "--output-dir", str(options.output.resolve()), *lean, folder=FILES)
+    run("jupyterlite_core", "build", "--output-dir", str(output), *lean, folder=source)
     return 0
 
 
