@@ -8,6 +8,13 @@
 
 const PI = Math.PI;
 const STEPS = 400; // of the threshold slider
+// Without a graphics card a picture of many polygons takes long; while it moves it may be a coarser one.
+const LEVELS = [
+  { name: "smooth", scale: 1, samples: 4 },
+  { name: "plain", scale: 1, samples: 1 },
+  { name: "half", scale: 0.5, samples: 1 },
+  { name: "third", scale: 0.34, samples: 1 },
+];
 const STYLE = `
 .psl { --psl-line: color-mix(in srgb, currentColor 28%, transparent);
   color: var(--pst-color-text-base, var(--jp-content-font-color1, inherit));
@@ -215,12 +222,14 @@ class Filter {
       if (degree[a] < 3) degree[a]++;
       if (degree[b] < 3) degree[b]++;
     }
-    let ends = 0;
+    let ends = 0, lone = 0;
     for (let v = 0; v < count; v++) {
-      if (degree[v] === 1 && this.rank[v] >= cut && this.vertexCover[v] < cut) ends++;
+      if (degree[v] > 1 || this.rank[v] < cut) continue;
+      if (degree[v] === 0) lone++;
+      else if (this.vertexCover[v] < cut) ends++;
     }
     return {
-      vertices: this.kept(this.vertexSorted, cut), edges: E, polygons: this.kept(this.polygonSorted, cut), branches: ends,
+      vertices: this.kept(this.vertexSorted, cut), edges: E, polygons: this.kept(this.polygonSorted, cut), branches: ends, lone,
     };
   }
 
@@ -251,6 +260,13 @@ class Filter {
     return out;
   }
 
+  /** Vertices that are kept without an edge; they would not be seen otherwise. */
+  lone(cut) {
+    const { edges, count } = this.scene, joined = new Uint8Array(count), E = this.kept(this.edgeSorted, cut);
+    for (let k = 0; k < E; k++) { const e = this.edgeOrder[k]; joined[edges[2 * e]] = joined[edges[2 * e + 1]] = 1; }
+    return Uint32Array.from({ length: count }, (_, v) => v).filter((v) => this.rank[v] >= cut && !joined[v]);
+  }
+
   /** Facets of the boundary of the simplified shape, flat, turned outward. */
   boundary(cut) {
     const { facets, owners, dimension: N } = this.scene, out = [];
@@ -266,44 +282,46 @@ class Filter {
 
 // ---------------------------------------------------------------- drawing
 
-const VERTEX_HEAD = `#version 300 es
+const VERTEX_HEAD = `
 precision highp float;
-uniform mat4 toClip; uniform mat4 toEye; uniform vec3 ramp[17]; uniform vec4 plain; uniform vec3 low; uniform vec3 high;
-vec3 tint(float value) {
-  if (plain.a > 0.0) return plain.rgb;
-  float x = clamp(value, 0.0, 1.0) * 16.0; int k = min(int(x), 15);
-  return mix(ramp[k], ramp[k + 1], x - float(k));
-}
+uniform mat4 toClip; uniform vec4 plain;
+vec3 tint(vec3 own) { return plain.a > 0.0 ? plain.rgb : own; }
 `;
-const FRAGMENT_HEAD = `#version 300 es
+// CLIP: a few vertices of a skeleton can be far away; what is outside of the box is cut off. Only where it is
+// needed, because a shader that discards is slower.
+const FRAGMENT_HEAD = `
 precision highp float;
 uniform vec3 low; uniform vec3 high; out vec4 color;
-void keepInside(vec3 p) { if (any(lessThan(p, low)) || any(greaterThan(p, high))) discard; }
+void keepInside(vec3 p) {
+#ifdef CLIP
+  if (any(lessThan(p, low)) || any(greaterThan(p, high))) discard;
+#endif
+}
 `;
 const SOURCES = {
   // Polygons and the shape. lit: 0 flat colour, 1 lit on both sides, 2 glass, denser where seen at a glancing angle.
   faces: [
     `${VERTEX_HEAD}
-    layout(location = 0) in vec3 place; layout(location = 1) in float value;
-    out vec3 shade; out vec3 eye; out vec3 world;
-    void main() { shade = tint(value); world = place; eye = (toEye * vec4(place, 1.0)).xyz; gl_Position = toClip * vec4(place, 1.0); }`,
+    layout(location = 0) in vec3 place; layout(location = 1) in vec3 own;
+    out vec3 shade; out vec3 world;
+    void main() { shade = tint(own); world = place; gl_Position = toClip * vec4(place, 1.0); }`,
     `${FRAGMENT_HEAD}
-    uniform float lit; uniform float alpha; in vec3 shade; in vec3 eye; in vec3 world;
+    uniform float lit; uniform float alpha; uniform vec3 toLight; uniform vec3 toEye; in vec3 shade; in vec3 world;
     void main() {
       keepInside(world);
       if (lit < 0.5) { color = vec4(shade, alpha); return; }
-      vec3 n = normalize(cross(dFdx(eye), dFdy(eye)));
-      float facing = abs(n.z);
-      float light = abs(dot(n, normalize(vec3(-0.35, 0.55, 0.85))));
-      if (lit < 1.5) { color = vec4(shade * (0.52 + 0.5 * light), alpha); return; }
-      float rim = pow(1.0 - facing, 2.5);
-      color = vec4(mix(shade, shade * (0.6 + 0.5 * light), alpha), mix(alpha * (0.3 + 1.4 * rim), 1.0, alpha * alpha));
+      vec3 n = normalize(cross(dFdx(world), dFdy(world)));
+      float light = abs(dot(n, toLight));
+      if (lit < 1.5) { color = vec4(shade * (0.55 + 0.5 * light), 1.0); return; }
+      float rim = 1.0 - abs(dot(n, toEye));
+      color = vec4(mix(shade, shade * (0.6 + 0.5 * light), alpha),
+        mix(alpha * (0.3 + 1.5 * rim * rim * sqrt(rim)), 1.0, alpha * alpha * alpha * alpha));
     }`,
   ],
   // Segments as capsules of a fixed width on the screen.
   lines: [
     `${VERTEX_HEAD}
-    layout(location = 0) in vec3 a; layout(location = 1) in float va; layout(location = 2) in vec3 b; layout(location = 3) in float vb;
+    layout(location = 0) in vec3 a; layout(location = 1) in vec3 va; layout(location = 2) in vec3 b; layout(location = 3) in vec3 vb;
     uniform vec2 size; uniform float width; uniform float nearer;
     out vec3 shade; out vec2 q; out float span; out vec3 world;
     void main() {
@@ -330,16 +348,16 @@ const SOURCES = {
       float d = length(vec2(max(max(-q.x, q.x - span), 0.0), q.y));
       float cover = clamp(width * 0.5 - d + 0.5, 0.0, 1.0);
       if (cover < 0.02) discard;
-      float h = clamp(2.0 * d / max(width, 1.0), 0.0, 1.0);
+      float h = clamp(2.0 * abs(q.y) / max(width, 1.0), 0.0, 1.0); // shaded across only: no beads at the joints
       color = vec4(shade * mix(1.0, 1.06 - 0.5 * h * h, tube), cover * alpha);
     }`,
   ],
   dots: [
     `${VERTEX_HEAD}
-    layout(location = 0) in vec3 place; layout(location = 1) in float value; uniform float width; uniform float nearer;
+    layout(location = 0) in vec3 place; layout(location = 1) in vec3 own; uniform float width; uniform float nearer;
     out vec3 shade; out vec3 world;
     void main() { gl_Position = toClip * vec4(place, 1.0); gl_Position.z -= nearer * gl_Position.w;
-      gl_PointSize = width + 1.0; shade = tint(value); world = place; }`,
+      gl_PointSize = width + 1.0; shade = tint(own); world = place; }`,
     `${FRAGMENT_HEAD}
     uniform float width; uniform float alpha; in vec3 shade; in vec3 world;
     void main() { keepInside(world);
@@ -352,9 +370,11 @@ const SOURCES = {
 class Renderer {
   constructor() {
     this.canvas = document.createElement("canvas");
-    this.gl = this.canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: false });
+    this.gl = this.canvas.getContext("webgl2", { antialias: false });
     if (!this.gl) throw new Error("no WebGL2");
     this.users = new Set();
+    const info = this.gl.getExtension("WEBGL_debug_renderer_info");
+    this.fast = !/swiftshader|llvmpipe|software/i.test(info ? this.gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : "");
     this.canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     this.canvas.addEventListener("webglcontextrestored", () => { this.start(); this.users.forEach((u) => u.restart()); });
     this.start();
@@ -363,11 +383,11 @@ class Renderer {
   start() {
     const gl = this.gl;
     this.programs = {};
-    for (const [name, sources] of Object.entries(SOURCES)) {
-      const program = gl.createProgram();
-      sources.forEach((source, k) => {
+    for (const key of Object.keys(SOURCES).flatMap((name) => [name, `${name} CLIP`])) {
+      const program = gl.createProgram(), [name, clip] = key.split(" ");
+      SOURCES[name].forEach((source, k) => {
         const shader = gl.createShader(k ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
-        gl.shaderSource(shader, source);
+        gl.shaderSource(shader, `#version 300 es\n${clip ? "#define CLIP\n" : ""}${source}`);
         gl.compileShader(shader);
         gl.attachShader(program, shader);
       });
@@ -380,9 +400,53 @@ class Renderer {
         const info = gl.getActiveUniform(program, i);
         uniforms[info.name] = [gl.getUniformLocation(program, info.name), info.type];
       }
-      this.programs[name] = { program, uniforms };
+      this.programs[key] = { program, uniforms };
     }
     this.blank = gl.createVertexArray();
+    this.smooth = null;
+  }
+
+  /** Draw with four samples a pixel, into a buffer of their own, or straight into the canvas. */
+  begin(fine, width, height) {
+    const gl = this.gl;
+    if (fine && (!this.smooth || this.smooth.width < width || this.smooth.height < height)) {
+      const old = this.smooth;
+      this.smooth = { width: Math.max(width, old?.width ?? 0), height: Math.max(height, old?.height ?? 0) };
+      if (old) { gl.deleteFramebuffer(old.frame); gl.deleteRenderbuffer(old.color); gl.deleteRenderbuffer(old.depth); }
+      this.smooth.frame = gl.createFramebuffer();
+      gl.bindFramebuffer(gl.FRAMEBUFFER, this.smooth.frame);
+      const part = (name, format, place) => {
+        this.smooth[name] = gl.createRenderbuffer();
+        gl.bindRenderbuffer(gl.RENDERBUFFER, this.smooth[name]);
+        gl.renderbufferStorageMultisample(gl.RENDERBUFFER, 4, format, this.smooth.width, this.smooth.height);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, this.smooth[name]);
+      };
+      part("color", gl.RGBA8, gl.COLOR_ATTACHMENT0);
+      part("depth", gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT);
+    }
+    gl.bindFramebuffer(gl.FRAMEBUFFER, fine ? this.smooth.frame : null);
+  }
+
+  end(fine, width, height) {
+    const gl = this.gl;
+    if (!fine) return;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.smooth.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  }
+
+  /** Call back with the milliseconds until what was drawn so far is done, without waiting for it. */
+  timed(done) {
+    const gl = this.gl, start = performance.now(), sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!sync) return;
+    gl.flush();
+    const look = () => {
+      if (gl.isContextLost()) return;
+      if (gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) setTimeout(look, 4);
+      else { gl.deleteSync(sync); done(performance.now() - start); }
+    };
+    setTimeout(look, 0);
   }
 
   resize(width, height) {
@@ -504,7 +568,15 @@ class Camera {
     const lens = this.flat
       ? [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, -0.25, 0, x, y, -0.9, 1]
       : [f / aspect, 0, 0, 0, 0, f, 0, 0, -x, -y, -1.947, -1, 0, 0, -5.305, 0];
-    return { toEye: eye, toClip: product(new Float32Array(lens), eye) };
+    return { toClip: product(new Float32Array(lens), eye) };
+  }
+
+  /** Unit vectors to the light, which is over the reader's left shoulder, and to the reader. */
+  lights() {
+    const m = this.eye(), s = 1 / this.radius;
+    const back = (x, y, z) => [0, 4, 8].map((c) => (m[c] * x + m[c + 1] * y + m[c + 2] * z) / s);
+    const norm = Math.hypot(0.35, 0.55, 0.85);
+    return { toLight: back(-0.35 / norm, 0.55 / norm, 0.85 / norm), toEye: back(0, 0, 1) };
   }
 }
 
@@ -535,6 +607,7 @@ class Viewer {
     this.id = `psl-${++serial}`;
     this.camera = new Camera(this.dimension, this.header.low, this.header.high, this.header.view);
     this.frames = 0;
+    this.cost = []; // milliseconds of the last picture of each level
     this.gone = [];
     this.build();
     this.follow();
@@ -633,10 +706,10 @@ class Viewer {
     const percent = { shown: (v) => `${Math.round(100 * v)} %`, value: (v) => v / 100 };
     if (header.shape) {
       if (header.filters) {
-        const input = this.slider("simplified", "simplified", "Simplify the shape too", share, percent);
+        const input = this.slider("simplified", "simplified", "Simplify shape", share, percent);
         this.refreshers.push(() => { input.value = String(Math.round(100 * this.get("simplified"))); });
       }
-      const input = this.slider("opacity", "opacity", "Opacity of the shape", share, percent);
+      const input = this.slider("opacity", "opacity", "Shape opacity", share, percent);
       this.refreshers.push(() => { input.value = String(Math.round(100 * this.get("opacity"))); });
     }
     const names = { radius: "radius", level: "level", none: "one colour" };
@@ -646,7 +719,7 @@ class Viewer {
     ...colors.map((c) => make("option", { value: c }, names[c])));
     this.row("Colour", select);
     this.refreshers.push(() => { select.value = this.get("color"); });
-    const set = make("fieldset", {}, make("legend", {}, "Show"));
+    const set = make("fieldset", { class: "psl-wide" }, make("legend", {}, "Show"));
     for (const key of ["samples", "vertices", "edges", ...(solid ? ["polygons"] : [])]) {
       if (key === "samples" && !header.samples) continue;
       const input = make("input", { type: "checkbox", "data-control": key,
@@ -795,29 +868,51 @@ class Viewer {
 
   // ------------------------------------------------------------ picture
 
+  /** Ask for a picture. While pictures follow each other they may be coarser; a fine one follows at rest. */
   draw() {
+    this.resting = false;
+    clearTimeout(this.rested);
+    this.ask();
+  }
+
+  ask() {
     if (this.waiting) return;
     this.waiting = requestAnimationFrame(() => { this.waiting = null; if (this.seen) this.paint(); });
+  }
+
+  /** The best of LEVELS that takes 40 ms; at rest a better one may take longer. */
+  level() {
+    const { cost } = this, large = this.counted.polygons > 12000;
+    if (this.resting) return cost[0] > 500 ? 1 : 0;
+    for (let k = 0; k < LEVELS.length; k++) if (!(cost[k] > 40) && !(k === 0 && large && cost[0] === undefined)) return k;
+    return LEVELS.length - 1;
   }
 
   paint() {
     const shown = this.canvas, ratio = Math.min(globalThis.devicePixelRatio || 1, 2);
     const width = Math.round(shown.clientWidth * ratio), height = Math.round(shown.clientHeight * ratio);
     if (!width || !height) return;
+    const view = (this.view = renderer());
+    view.users.add(this);
+    if (view.gl.isContextLost()) return;
     if (shown.width !== width || shown.height !== height) Object.assign(shown, { width, height });
-    const start = performance.now();
-    this.view = renderer();
-    this.view.users.add(this);
-    if (this.view.gl.isContextLost()) return;
-    this.buffers ??= new Buffers(this.view.gl);
-    this.view.resize(width, height);
-    this.render(width, height, ratio);
-    const context = shown.getContext("2d");
-    context.drawImage(this.view.canvas, 0, this.view.canvas.height - height, width, height, 0, 0, width, height);
+    this.buffers ??= new Buffers(view.gl);
+    const level = this.level(), { name, scale, samples } = LEVELS[level];
+    const w = Math.round(width * scale), h = Math.round(height * scale);
+    view.resize(w, h);
+    view.begin(samples > 1, w, h);
+    this.render(w, h, ratio * scale, level);
+    view.end(samples > 1, w, h);
+    const context = shown.getContext("2d", { willReadFrequently: !view.fast });
+    context.drawImage(view.canvas, 0, view.canvas.height - h, w, h, 0, 0, width, height);
     this.colorBar(context, width, height, ratio);
     this.element.dataset.frames = String(++this.frames);
+    this.element.dataset.quality = name;
     if (this.frames === 1) this.element.dataset.firstPicture = performance.now().toFixed(1);
-    this.element.dataset.frameMs = (performance.now() - start).toFixed(2);
+    else view.timed((cost) => { this.cost[level] = cost; this.element.dataset.frameMs = cost.toFixed(1); });
+    if (!this.resting && level > 0) {
+      this.rested = setTimeout(() => { this.resting = true; this.ask(); }, 250);
+    }
   }
 
   /** Give the memory back while out of sight. */
@@ -825,22 +920,23 @@ class Viewer {
 
   restart() { this.buffers = null; this.draw(); }
 
+  /** The colour of each vertex, four bytes each (the fourth only fills up). */
   values(scene, filter) {
-    const color = this.get("color"), out = new Float32Array(scene.count);
-    if (color === "radius") { for (let v = 0; v < out.length; v++) out[v] = scene.radius[v] / 65535; }
-    else if (color === "level") {
-      const { largest, power } = filter.header, { levels, rank } = filter;
-      for (let v = 0; v < out.length; v++) {
-        const level = rank[v] < levels.length ? levels[rank[v]] : Infinity;
-        out[v] = clamp(Math.max(level, 0) / largest, 0, 1) ** (1 / power);
-      }
+    const color = this.get("color"), out = new Uint8Array(4 * scene.count), ramp = this.header.ramp.map(rgb);
+    const { largest, power } = filter.header, { levels, rank } = filter, last = ramp.length - 1;
+    for (let v = 0; v < scene.count; v++) {
+      const level = rank[v] < levels.length ? levels[rank[v]] : Infinity;
+      const x = color === "level" ? clamp(Math.max(level, 0) / largest, 0, 1) ** (1 / power) : scene.radius[v] / 65535;
+      const k = Math.min(Math.floor(x * last), last - 1), part = x * last - k;
+      for (let c = 0; c < 3; c++) out[4 * v + c] = Math.round(255 * (ramp[k][c] * (1 - part) + ramp[k + 1][c] * part));
     }
     return out;
   }
 
-  render(width, height, ratio) {
+  render(width, height, ratio, level) {
     const { view, buffers, camera, header, cut, shapeCut, filter, sceneNow: scene } = this;
     const gl = view.gl, solid = this.dimension === 3, colors = header.colors;
+    const clip = solid && scene.header.vertices.far ? " CLIP" : "";
     gl.viewport(0, 0, width, height);
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(0, 0, width, height);
@@ -853,7 +949,7 @@ class Viewer {
     const color = this.get("color"), opacity = this.get("opacity");
     const wide = 4 * camera.radius, margin = 0.3 * camera.radius;
     const base = {
-      ...camera.matrices(width / height, this.outline()), size: [width, height], ramp: header.ramp.flatMap(rgb),
+      ...camera.matrices(width / height, this.outline()), ...camera.lights(), size: [width, height],
       low: solid ? camera.center.map((c, k) => c - camera.half[k] - margin) : camera.center.map((c) => c - 1e3 * wide),
       high: solid ? camera.center.map((c, k) => c + camera.half[k] + margin) : camera.center.map((c) => c + 1e3 * wide),
       plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0,
@@ -861,31 +957,31 @@ class Viewer {
     const skeleton = color === "none" ? { plain: [...rgb(colors.skeleton), 1] } : {};
     const grow = ratio * clamp(camera.zoom ** 0.35, 0.8, 2.2);
     const label = `${scene.label}|${filter.label}`, stamp = `${label}|${color}`;
-    const attribute = (place, size, stride = 0, offset = 0, divisor = 0) => {
+    const attribute = (place, bytes, stride = 0, offset = 0, divisor = 0) => {
       gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, size, gl.FLOAT, false, stride, offset);
+      gl.vertexAttribPointer(place, 3, bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, bytes, stride, offset);
       gl.vertexAttribDivisor(place, divisor);
     };
     let values = null;
     const value = () => (values ??= this.values(scene, filter));
     const bindVertices = () => {
       buffers.get("vertices", scene.label, () => scene.vertices);
-      attribute(0, 3);
+      attribute(0, false);
       buffers.get("values", stamp, value);
-      attribute(1, 1);
+      attribute(1, true, 4);
     };
     const bindPoints = () => {
       buffers.get("points", scene.label, () => scene.points);
-      attribute(0, 3);
+      attribute(0, false);
       gl.disableVertexAttribArray(1);
     };
-    /** Segments as instances; `ends` gives eight numbers each. */
+    /** Segments as instances: of each end three floats and four bytes of colour. */
     const segments = (name, key, ends, uniforms) => {
       for (const k of [0, 1, 2, 3]) gl.disableVertexAttribArray(k);
       const entry = buffers.get(name, key, ends);
       if (!entry.length) return;
-      view.use("lines", { ...base, ...uniforms });
-      [[0, 3, 0], [1, 1, 12], [2, 3, 16], [3, 1, 28]].forEach(([place, size, offset]) => attribute(place, size, 32, offset, 1));
+      view.use(`lines${clip}`, { ...base, ...uniforms });
+      [0, 12, 16, 28].forEach((offset, place) => attribute(place, place % 2 === 1, 32, offset, 1));
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, entry.length / 8);
       for (let k = 0; k < 4; k++) { gl.disableVertexAttribArray(k); gl.vertexAttribDivisor(k, 0); }
     };
@@ -895,10 +991,12 @@ class Viewer {
       return out;
     };
     const wireEnds = () => {
-      const rows = filter.wires(cut), out = new Float32Array(8 * rows.length), p = scene.vertices, w = value();
+      const rows = filter.wires(cut), out = new Float32Array(8 * rows.length), p = scene.vertices;
+      const bytes = new Uint8Array(out.buffer), own = value();
       rows.forEach((e, i) => [0, 1].forEach((side) => {
-        const v = scene.edges[2 * e + side];
-        out.set([p[3 * v], p[3 * v + 1], p[3 * v + 2], w[v]], 8 * i + 4 * side);
+        const v = scene.edges[2 * e + side], at = 8 * i + 4 * side;
+        out.set([p[3 * v], p[3 * v + 1], p[3 * v + 2]], at);
+        bytes.set(own.subarray(4 * v, 4 * v + 4), 4 * at + 12);
       }));
       return out;
     };
@@ -910,7 +1008,7 @@ class Viewer {
       bindPoints();
       const fill = (name, atCut, hex, alpha) => {
         const entry = buffers.get(name, `${label}|${atCut}`, () => this.region(scene, filter, atCut), gl.ELEMENT_ARRAY_BUFFER);
-        view.use("faces", { ...base, plain: [...rgb(hex), 1], alpha });
+        view.use(`faces${clip}`, { ...base, plain: [...rgb(hex), 1], alpha });
         gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0);
       };
       if (shapeCut) fill("region-all", 0, colors.removed, opacity * 0.6);
@@ -929,16 +1027,16 @@ class Viewer {
       gl.disable(gl.BLEND);
       bindVertices();
       buffers.get("fans", label, () => index, gl.ELEMENT_ARRAY_BUFFER);
-      view.use("faces", { ...base, ...skeleton, lit: 1 });
+      view.use(`faces${clip}`, { ...base, ...skeleton, lit: 1 });
       gl.drawElements(gl.TRIANGLES, upTo[this.counted.polygons], gl.UNSIGNED_INT, 0);
     }
     gl.enable(gl.BLEND);
-    if (solid && this.get("edges") && scene.sizes.length) {
+    if (solid && level < 2 && this.get("edges") && scene.sizes.length) {
       bindVertices();
       buffers.get("sides", label, () => this.allSides(scene, filter), gl.ELEMENT_ARRAY_BUFFER);
       gl.disableVertexAttribArray(1);
-      gl.vertexAttrib1f(1, 0);
-      view.use("faces", { ...base, plain: [0.05, 0.07, 0.12, 1], alpha: this.get("polygons") ? 0.3 : 0.75, nearer: 0.0004 });
+      gl.vertexAttrib3f(1, 0, 0, 0);
+      view.use(`faces${clip}`, { ...base, plain: [0.05, 0.07, 0.12, 1], alpha: this.get("polygons") ? 0.3 : 0.75, nearer: 0.0004 });
       gl.depthMask(false);
       gl.drawElements(gl.LINES, 2 * this.counted.edges, gl.UNSIGNED_INT, 0);
       gl.depthMask(true);
@@ -949,32 +1047,38 @@ class Viewer {
       const thick = (solid ? 4 : 2.4) * grow;
       const key = `${stamp}|${cut}`;
       segments("wires", key, wireEnds, { ...skeleton, width: thick, tube: solid ? 1 : 0, nearer: solid ? 0.001 : 0 });
-      if (scene.rays && cut === 0) segments("rays", label, () => scene.rays, { ...skeleton, width: thick });
+      if (scene.rays && cut === 0) segments("rays", label, () => scene.rays, { plain: [...rgb(colors.skeleton), 1], width: thick });
+    }
+    if (this.get("edges") && !this.get("vertices") && this.counted.lone) {
+      bindVertices();
+      const entry = buffers.get("lone", `${label}|${cut}`, () => filter.lone(cut), gl.ELEMENT_ARRAY_BUFFER);
+      view.use(`dots${clip}`, { ...base, ...skeleton, width: 7 * grow, nearer: solid ? 0.002 : 0 });
+      gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
     }
     if (this.get("vertices")) {
       bindVertices();
       const entry = buffers.get("dots", `${label}|${cut}`, () => this.keptVertices(scene, filter), gl.ELEMENT_ARRAY_BUFFER);
-      view.use("dots", { ...base, plain: [...rgb(colors.vertices), 1], width: (solid ? 4 : 4.5) * grow, nearer: solid ? 0.002 : 0 });
+      view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.vertices), 1], width: (solid ? 4 : 4.5) * grow, nearer: solid ? 0.002 : 0 });
       gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
     }
     if (this.get("samples") && scene.samples) {
       bindPoints();
-      gl.vertexAttrib1f(1, 0);
+      gl.vertexAttrib3f(1, 0, 0, 0);
       const entry = buffers.get("samples", scene.label, () => Uint32Array.from(scene.samples), gl.ELEMENT_ARRAY_BUFFER);
-      view.use("dots", { ...base, plain: [...rgb(colors.samples), 1], width: (solid ? 3.2 : 3.6) * grow, nearer: solid ? 0.002 : 0 });
+      view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.samples), 1], width: (solid ? 3.2 : 3.6) * grow, nearer: solid ? 0.002 : 0 });
       gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
     }
 
     // 4. In space, the shape as glass: what faces away from the reader first. The whole shape is a ghost around it.
     if (solid && scene.simplices && opacity > 0.004) {
       bindPoints();
-      gl.vertexAttrib1f(1, 0);
+      gl.vertexAttrib3f(1, 0, 0, 0);
       gl.enable(gl.CULL_FACE);
       const glass = (name, atCut, hex, alpha) => {
         const entry = buffers.get(name, `${label}|${atCut}`, () => filter.boundary(atCut), gl.ELEMENT_ARRAY_BUFFER);
-        view.use("faces", { ...base, plain: [...rgb(hex), 1], alpha, lit: 2 });
+        view.use(`faces${clip}`, { ...base, plain: [...rgb(hex), 1], alpha, lit: 2 });
         gl.depthMask(alpha > 0.97);
-        for (const side of [gl.FRONT, gl.BACK]) { gl.cullFace(side); gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0); }
+        for (const side of level < 2 ? [gl.FRONT, gl.BACK] : [gl.FRONT]) { gl.cullFace(side); gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0); }
       };
       if (shapeCut) glass("glass-all", 0, colors.ghost, opacity * 0.35);
       glass("glass", shapeCut, colors.glass, opacity);
@@ -1042,6 +1146,7 @@ class Viewer {
   }
 
   save() {
+    this.resting = true;
     this.paint();
     this.canvas.toBlob((blob) => {
       const link = make("a", { href: URL.createObjectURL(blob), download: "skeleton.png" });
