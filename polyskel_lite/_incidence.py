@@ -7,23 +7,34 @@ from scipy.spatial import cKDTree
 
 # A singular point is on every sphere that it misses by less than this share of the radius.
 ON = 1e-9
+# The same for the distance from the origin: some ten roundings, as often amplified.
+FAR = 1e-14
 
 
 class Incidence:
-    """Pairs (singular point, ball) with the point on the sphere, as sorted keys."""
+    """Pairs (singular point, ball) with the point on the sphere, as sorted keys.
 
-    def __init__(self, corners, centers, radii):
+    Parameters
+    ----------
+    corners : (s, N) float array
+    centers, radii : (k, N) and (k,) float arrays
+    origin : (N,) float array
+        What was taken off all coordinates; they were rounded before that.
+    """
+
+    def __init__(self, corners, centers, radii, origin):
         self.count = len(radii)
+        slack = FAR * np.abs(origin).max()
         point, ball = [], []
         octave = np.frexp(radii)[1]
         tree = cKDTree(corners)
         for value in np.unique(octave):
             group = np.flatnonzero(octave == value)
             near = cKDTree(centers[group]).sparse_distance_matrix(
-                tree, radii[group].max() * (1 + 2 * ON), output_type="ndarray"
+                tree, radii[group].max() * (1 + 2 * ON) + slack, output_type="ndarray"
             )
             # No singular point is inside a ball, so that "not outside" is "on the sphere".
-            on = near["v"] <= radii[group[near["i"]]] * (1 + ON)
+            on = near["v"] <= radii[group[near["i"]]] * (1 + ON) + slack
             point.append(near["j"][on])
             ball.append(group[near["i"][on]])
         self.keys = np.unique(np.concatenate(point) * self.count + np.concatenate(ball))

@@ -1,8 +1,9 @@
 """The exact skeleton of a union of balls (appendix A, theorems 3 and 4 as corrected).
 
-Between two singular points p and q the skeleton is a convex piece of their Voronoi face, the points whose
-nearest boundary points are p and q. Its corners are Voronoi vertices whose ball lies in the union, and centres
-of balls through both p and q. So no face is clipped numerically: the corners are found one by one, and sorted.
+Between two singular points p and q the skeleton is a convex piece of their Voronoi face: the points whose
+nearest boundary points are p and q. Its corners are Voronoi vertices whose ball lies in the union, and
+centres of balls through both p and q. So no face is clipped numerically: the corners are found one by one,
+and sorted.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ class _Faces(NamedTuple):
     vertex: np.ndarray
 
 
-def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation) -> Skeleton:
+def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation, origin) -> Skeleton:
     """Build the skeleton of a union of balls from the features of its boundary.
 
     Parameters
@@ -69,6 +70,8 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation)
     boundary : Boundary
     power : PowerTriangulation
         Of the same balls.
+    origin : (N,) float array
+        Added to the result.
 
     Returns
     -------
@@ -87,15 +90,15 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation)
     >>> centers, radii = np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3)
     >>> whole = np.ones(3, dtype=bool)
     >>> bare = Boundary(np.zeros((0, 3)), whole, whole, np.array([(0, 1), (1, 2)]))
-    >>> ball_skeleton(centers, radii, bare, power_triangulation(centers, radii)).edges.tolist()
+    >>> ball_skeleton(centers, radii, bare, power_triangulation(centers, radii), np.zeros(3)).edges.tolist()
     [[0, 1], [1, 2]]
     """
     n = centers.shape[1]
-    vertices, sizes = centers - power.origin, radii
+    vertices, sizes = centers, radii
     edges, polygons = [boundary.bridges], Polygons()
     if len(boundary.corners):
-        corners = boundary.corners - power.origin
-        on = Incidence(corners, vertices, radii)
+        corners = boundary.corners
+        on = Incidence(corners, vertices, radii, origin)
         t = _triangulate(corners)
         label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii, power)
         lines = _faces(t, label, on, boundary.exposed, n)
@@ -110,7 +113,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation)
     used[edges] = True
     number = np.cumsum(used) - 1
     return Skeleton(
-        vertices=vertices[used] + power.origin,
+        vertices=vertices[used] + origin,
         radii=sizes[used],
         simplices=np.full(int(used.sum()), -1),
         edges=number[edges],
@@ -120,12 +123,11 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation)
 
 def _triangulate(corners) -> PowerTriangulation:
     """The Delaunay simplices of the singular points, ghosts around them, ties broken one way for all."""
-    n = corners.shape[1]
     near = cKDTree(corners).query(corners, k=2)[0][:, 1] if len(corners) > 1 else np.zeros(1)
     near[~np.isfinite(near)] = 0
     lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
     size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
-    return regular_triangulation(corners, lift, np.zeros(n), size)
+    return regular_triangulation(corners, lift, size)
 
 
 def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
@@ -160,7 +162,7 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
     outside = np.append(np.flatnonzero(~real), len(t.simplices))
     largest[part[outside]] = -1
     tested = np.flatnonzero(largest >= 0)
-    inside[tested] = power.in_dual_shape(place[largest[tested]] + power.origin)
+    inside[tested] = power.in_dual_shape(place[largest[tested]])
     inside[tested] &= strictly_inside(place[largest[tested]], centers, radii, _SAME)
     pairs = number[sides[free]]
     pairs = pairs[(pairs >= 0).all(axis=1)]

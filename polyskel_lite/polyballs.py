@@ -177,7 +177,7 @@ class Polyball:
         >>> sorted(Y.singular_points().round(9).tolist())
         [[1.0, -2.0], [1.0, 2.0]]
         """
-        return self._boundary.corners.copy()
+        return self._boundary.corners + self._origin
 
     def exposed(self) -> np.ndarray:
         """Tell which balls have a piece of their own sphere on the boundary.
@@ -309,7 +309,7 @@ class Polyball:
         number[rows] = np.arange(len(rows))
         among = number[self._rows[pairs]].reshape(-1, 2)
         alone = isolated_lenses(
-            self.centers[rows], self.radii[rows], among, *crossings(centers, radii, pairs)
+            self.centers[rows] - self._origin, self.radii[rows], among, *crossings(centers, radii, pairs)
         )
         return self._sorted_pairs(pairs[alone])
 
@@ -371,7 +371,7 @@ class Polyball:
             if self.dimension == 2:
                 bridges = bridges[:0]
         features = Boundary(self._boundary.corners, self._exposed, alone, bridges)
-        return ball_skeleton(*self._balls, features, self._power)
+        return ball_skeleton(*self._balls, features, self._power, self._origin)
 
     def boundary_distance(self, queries) -> np.ndarray:
         """Measure the distance from points to the boundary of the polyball.
@@ -396,7 +396,7 @@ class Polyball:
         >>> Polyball([(0, 0)], [2]).boundary_distance([(0, 0), (1, 0), (0, 5)])
         array([2., 1., 3.])
         """
-        queries = as_points(queries, name="queries", dimensions=(self.dimension,))
+        queries = as_points(queries, name="queries", dimensions=(self.dimension,)) - self._origin
         if self.dimension == 3:
             from ._ball_distance import distance_to_boundary
 
@@ -427,8 +427,7 @@ class Polyball:
         centers, radii = self._balls
         ball, start, end = self._boundary.arcs
         radius = radii[ball]
-        # Seen from the middle of the discs, so that polyballs far from the origin lose no digits.
-        x, y = (centers[ball] - centers.mean(axis=0)).T
+        x, y = centers[ball].T
         swing = x * (np.sin(end) - np.sin(start)) - y * (np.cos(end) - np.cos(start))
         return float(np.sum(radius * (radius * (end - start) + swing)) / 2)
 
@@ -487,7 +486,7 @@ class Polyball:
 
         options = {} if fineness is None else {"fineness": fineness}
         vertices, triangles, ball = patches(*self._balls, self._power, **options)
-        return vertices, triangles, self._rows[ball]
+        return vertices + self._origin, triangles, self._rows[ball]
 
     def boundary(self):
         """The boundary in pieces of spheres: `arcs` in the plane, `patches` in space.
@@ -505,8 +504,13 @@ class Polyball:
         return distinct(self.centers, self.radii)
 
     @cached_property
+    def _origin(self) -> np.ndarray:
+        """The middle: everything is computed as seen from it, so that far polyballs lose no digits."""
+        return (self.centers.min(axis=0) + self.centers.max(axis=0)) / 2
+
+    @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray]:
-        return self.centers[self._rows], self.radii[self._rows]
+        return self.centers[self._rows] - self._origin, self.radii[self._rows]
 
     @cached_property
     def _power(self) -> PowerTriangulation:
@@ -514,9 +518,15 @@ class Polyball:
 
     @cached_property
     def _boundary(self) -> DiscBoundary | SphereBoundary:
-        return (
-            disc_boundary(*self._balls) if self.dimension == 2 else sphere_boundary(*self._balls, self._power)
-        )
+        # Found where the balls stand, because their rounding there says how far crossings are believed.
+        centers, radii = self.centers[self._rows], self.radii[self._rows]
+        if self.dimension == 2:
+            found = disc_boundary(centers, radii)
+        else:
+            found = sphere_boundary(centers, radii, self._power)
+            circles = found.circles._replace(centers=found.circles.centers - self._origin)
+            found = found._replace(circles=circles)
+        return found._replace(corners=found.corners - self._origin)
 
     @cached_property
     def _exposed(self) -> np.ndarray:
@@ -541,7 +551,9 @@ class Polyball:
         corners = self._boundary.corners
         if not len(corners):
             return np.zeros((0, 2), dtype=np.int64)
-        pairs, times = np.unique(Incidence(corners, *self._balls).pairs(), axis=0, return_counts=True)
+        pairs, times = np.unique(
+            Incidence(corners, *self._balls, self._origin).pairs(), axis=0, return_counts=True
+        )
         return pairs[times >= 2] if bare else pairs
 
     def _sorted_pairs(self, pairs: np.ndarray) -> np.ndarray:

@@ -27,16 +27,14 @@ class PowerTriangulation(NamedTuple):
     Attributes
     ----------
     points : (k + N + 1, N) float array
-        Centres, then ghosts, all minus ``origin``.
+        Centres, then ghosts.
     weights : (k + N + 1,) float array
         Squared radii; 0 for ghosts.
-    origin : (N,) float array
     simplices : (t, N+1) int array
         Without the hidden balls, whose power cell is empty. Not oriented.
     neighbors : (t, N+1) int array
         The simplex opposite each corner, -1 outside the ghosts.
     orthocenters : (t, N) float array
-        Minus ``origin``.
     power : (t,) float array
         Square of the orthoradius: the power that all corners give to the orthocentre.
     count : int
@@ -45,7 +43,6 @@ class PowerTriangulation(NamedTuple):
 
     points: np.ndarray
     weights: np.ndarray
-    origin: np.ndarray
     simplices: np.ndarray
     neighbors: np.ndarray
     orthocenters: np.ndarray
@@ -104,7 +101,6 @@ class PowerTriangulation(NamedTuple):
         >>> balls.in_dual_shape(np.array([(0.3, 0.3), (0.9, 0.9)])).tolist()
         [True, False]
         """
-        queries = queries - self.origin
         # The lifted triangulation is convex: over a query, the highest of all planes is that of its simplex.
         height = (self.orthocenters**2).sum(axis=1) - self.power
         inside = np.zeros(len(queries), dtype=bool)
@@ -124,6 +120,7 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
     Parameters
     ----------
     centers : (k, N) float array
+        Around 0, so that nothing is lost by squaring.
     radii : (k,) float array
 
     Raises
@@ -145,27 +142,23 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
     >>> balls.faces(2).tolist()
     [[0, 2]]
     """
-    origin = (centers.min(axis=0) + centers.max(axis=0)) / 2
-    points = centers - origin
-    size = float((np.sqrt((points**2).sum(axis=1)) + radii).max())
-    return regular_triangulation(points, radii**2, origin, size)
+    size = float((np.sqrt((centers**2).sum(axis=1)) + radii).max())
+    return regular_triangulation(centers, radii**2, size)
 
 
-def regular_triangulation(points, weights, origin, size: float) -> PowerTriangulation:
+def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
     """Triangulate weighted points within distance `size` of 0, with ghosts around them.
 
     Parameters
     ----------
     points : (k, N) float array
     weights : (k,) float array
-    origin : (N,) float array
-        Kept for the caller, not used.
     size : float
 
     Examples
     --------
     >>> import numpy as np
-    >>> t = regular_triangulation(np.array([(0.0, 0), (1, 0)]), np.zeros(2), np.zeros(2), 1.0)
+    >>> t = regular_triangulation(np.array([(0.0, 0), (1, 0)]), np.zeros(2), 1.0)
     >>> t.faces(2).tolist()
     [[0, 1]]
     """
@@ -188,7 +181,6 @@ def regular_triangulation(points, weights, origin, size: float) -> PowerTriangul
     return PowerTriangulation(
         points=points,
         weights=weights,
-        origin=origin,
         simplices=hull.simplices[lower],
         neighbors=number[hull.neighbors[lower]],
         orthocenters=slope * size,
