@@ -96,15 +96,51 @@ def _(explorer, k):
     explorer.controls["n"].value = 100 + 10 * k
 
 
+@case("refinement, step", lambda name: explore.refinement(outline(name).resample(100)))
+def _(explorer, k):
+    with explorer.together():  # some outlines need no step at all
+        explorer.controls["step"].value = k % (explorer.controls["step"].max + 1)
+        explorer.controls["balls"].value = k % 3 > 0
+
+
+@case("removals, step", lambda name: explore.removals(outline(name).resample(100)))
+def _(explorer, k):
+    explorer.controls["step"].value = 1 + k
+
+
+@case(
+    "thresholds, with the ways of the ends",
+    on(ends="the way they have come")(lambda name: explore.thresholds(outline(name))),
+)
+def _(explorer, k):
+    explorer.controls["threshold"].value = 0.1 * (1 + k)
+
+
+@case("balls, drag (the same for all)", lambda name: explore.balls())
+def _(explorer, k):
+    places = np.array(explorer.board.handles)
+    places[2] += 0.05 * np.array([np.cos(k), np.sin(k)])
+    explorer.board.handles = places
+
+
+@case("explore, table of branches", lambda name: explore.explore(outline(name)))
+def _(explorer, k):
+    explorer.picture.threshold = 0.3 * (1 + k)
+
+
 def milliseconds(explorer, action: Callable) -> np.ndarray:
     """Clock and processor times of `MOVES` movements, (2, MOVES); only `Explorer.update` counts."""
-    times = []
+    times, within = [], []
     update = explorer.update
 
     def timed():
+        if within:  # a handle that the explorer itself moved while it draws
+            return
+        within.append(True)
         start = np.array([time.perf_counter(), time.process_time()])
         update()
         times.append(1e3 * (np.array([time.perf_counter(), time.process_time()]) - start))
+        within.clear()
 
     explorer.update = timed
     for k in range(MOVES):

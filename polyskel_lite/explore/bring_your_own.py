@@ -209,9 +209,9 @@ class Explore(ipywidgets.VBox):
             threshold=FIRST_THRESHOLD[way.given.dimension],
             alt=f"The shape {way.name} and its skeleton, simplified at a threshold that you choose.",
         )
-        self.picture.observe(lambda _: self._tabulate(), ["threshold", "strategy"])
+        self.picture.observe(lambda _: self.update(), ["threshold", "strategy"])
         self._place.children = (self.picture, self._results)
-        self._tabulate()
+        self.update()
 
     @property
     def hierarchy(self) -> Hierarchy | None:
@@ -275,7 +275,8 @@ class Explore(ipywidgets.VBox):
             path.write_bytes(content)
             self.load(path, **options)
 
-    def _tabulate(self) -> None:
+    def update(self) -> None:
+        """Write the table for the threshold and the strategy chosen."""
         h, threshold = self.hierarchy, self.picture.threshold
         caption = f"Branches at the threshold {threshold / np.pi:.3g} π, the longest first"
         self._table.value = branch_table(branch_rows(h, threshold), caption)
