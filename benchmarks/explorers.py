@@ -98,9 +98,8 @@ def _(explorer, k):
 
 @case("refinement, step", lambda name: explore.refinement(outline(name).resample(100)))
 def _(explorer, k):
-    with explorer.together():  # some outlines need no step at all
-        explorer.controls["step"].value = k % (explorer.controls["step"].max + 1)
-        explorer.controls["balls"].value = k % 3 > 0
+    explorer.controls["step"].value = k % (explorer.controls["step"].max + 1)
+    explorer.controls["balls"].value = k % 2 > 0  # some outlines need no step at all
 
 
 @case("removals, step", lambda name: explore.removals(outline(name).resample(100)))
