@@ -7,7 +7,7 @@ LARGEST ?= 200000
 FIRST  := notebooks/01_introduction.ipynb
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint unit chapters lab figures bench run lock clean
+.PHONY: help book test lint unit chapters browser lab figures bench run lock clean
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
@@ -29,7 +29,7 @@ book: $(VENV)/.installed  ## build the HTML book from book.toml and notebooks/
 	@$(BIN)/python tools/check_offline.py _build/html
 	@echo "The book is ready. Open $(CURDIR)/_build/html/index.html"
 
-test: lint unit chapters  ## run everything: ruff, tests, doctests, every notebook compared with its stored outputs
+test: lint unit chapters browser  ## run everything: ruff, tests, doctests, every notebook, every page in a browser
 	@echo "All passed."
 
 lint: $(VENV)/.installed  ## ruff: rules and format
@@ -38,13 +38,17 @@ lint: $(VENV)/.installed  ## ruff: rules and format
 
 unit: $(VENV)/.installed  ## unit and property tests, doctests
 	@echo "Unit tests, property tests and doctests ..."
-	@$(BIN)/python -m pytest -n $(JOBS) --mpl
+	@$(BIN)/python -m pytest -n $(JOBS) --mpl --ignore tests/browser
 
 # addopts is emptied because doctest has nothing to find in a notebook. A chapter is one process: --dist loadfile.
 chapters: $(VENV)/.installed  ## run every notebook and compare with what is stored
 	@echo "Every chapter from top to bottom, compared with its stored outputs ..."
 	@env -u MPLBACKEND $(BIN)/python -m pytest -o addopts= -n $(JOBS) --dist loadfile --nbval --nbval-current-env \
 	  --nbval-sanitize-with tests/nbval_sanitize.cfg --nbval-cell-timeout 600 notebooks
+
+browser: book  ## every page, the viewer and the explorers in Chromium (skipped where there is none)
+	@echo "Pages, viewer and explorers in Chromium ..."
+	@BOOK=$(CURDIR)/_build/html $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -rs tests/browser
 
 lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
 	$(BIN)/jupyter lab $(FIRST)

@@ -16,12 +16,12 @@ COLOURS = {"runOnly": ["color-contrast"]}
 STRUCTURE = {"rules": {"color-contrast": {"enabled": False}}}
 
 
-def findings(page: "Page", part: dict[str, object] | None = None) -> list[str]:
+def findings(page: "Page", part: dict[str, object] | None = None, context: str | None = None) -> list[str]:
     """Each rule that is broken on the page as it stands, of any weight, with the first places where."""
     from axe_playwright_python.sync_playwright import Axe
 
     page.evaluate(UNFOLD)
-    broken = Axe().run(page, options=OPTIONS | (part or {})).response["violations"]
+    broken = Axe().run(page, context, OPTIONS | (part or {})).response["violations"]
     return [
         f"{rule['id']} ({rule['impact']}): {rule['help']}; {len(rule['nodes'])} times: "
         + ", ".join(str(node["target"][0]) for node in rule["nodes"][:5])
