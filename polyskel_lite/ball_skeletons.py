@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 
 from ._incidence import Incidence
 from ._polygons import Polygons
+from ._rows import unique_rows
 from .complexes import Skeleton
 from .power import PowerTriangulation, regular_triangulation
 from .spheres import strictly_inside
@@ -107,7 +108,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
             sheets = _faces(t, label, on, boundary.exposed, 2)
             polygons, flat = _polygons(sheets, vertices, corners)
             edges += [flat, _sides(polygons)]
-    edges = np.unique(np.sort(np.concatenate(edges), axis=1), axis=0).astype(np.int64)
+    edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
     used = np.zeros(len(vertices), dtype=bool)
     used[: len(radii)] = boundary.alone
     used[edges] = True
@@ -206,12 +207,12 @@ def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
     groups = np.sort(t.simplices[:, columns], axis=2).reshape(-1, size)
     owner = np.repeat(np.arange(len(t.simplices)), len(columns))
     real = groups[:, -1] < t.count
-    generators, face = np.unique(groups[real], axis=0, return_inverse=True)
-    face, vertex = face.reshape(-1), label[owner[real]]
+    generators, face = unique_rows(groups[real], t.count)
+    vertex = label[owner[real]]
     through, ball = on.common(generators)
     through, ball = through[exposed[ball]], ball[exposed[ball]]
     rows = np.column_stack([np.append(face[vertex >= 0], through), np.append(vertex[vertex >= 0], ball)])
-    rows = np.unique(rows, axis=0)
+    rows, _ = unique_rows(rows, max(len(generators), on.count, int(label.max()) + 1))
     return _Faces(generators, rows[:, 0], rows[:, 1])
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
+from ._rows import unique_rows
 from .errors import TessellationError
 
 _ZERO = 1e-9  # powers below this share of the largest squared radius are 0
@@ -76,8 +77,7 @@ class PowerTriangulation(NamedTuple):
         corners = self.simplices.shape[1]
         columns = list(combinations(range(corners), size))
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
-        rows = rows[rows[:, -1] < self.count]
-        return np.unique(rows, axis=0) if len(rows) else rows
+        return unique_rows(rows[rows[:, -1] < self.count], self.count)[0]
 
     def in_dual_shape(self, queries: np.ndarray) -> np.ndarray:
         """Whether points lie in a full simplex of the dual shape (one of negative power), (m,) bool array.
