@@ -1,8 +1,8 @@
 """Distance from points to the boundary of a union of balls in space, exact to rounding.
 
-Outside, it is the distance to the nearest ball. Inside, the nearest point of the boundary is straight ahead of a
-centre on a patch of its sphere, or straight ahead of the middle of a circle on one of its arcs, or the end of an arc.
-Arcs and spheres that are farther than the best point found so far are never looked at.
+Outside, it is the distance to the nearest ball. Inside, the nearest point of the boundary is straight ahead
+of a centre on a patch of its sphere, or straight ahead of the middle of a circle on one of its arcs, or the
+end of an arc. Arcs and spheres that are farther than the best point found so far are never looked at.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def _to_balls(queries, centers, radii) -> np.ndarray:
 
 
 def _lengths(points, centers) -> np.ndarray:
-    """Distances of all points from all centres, (m, k), without the cancellation of |p|² - 2 p·c + |c|²."""
+    """Distances of all points from all centres, (m, k), without the cancellation of |p|² - 2 p·c + c²."""
     return np.sqrt(sum((points[:, None, axis] - centers[:, axis]) ** 2 for axis in range(3)))
 
 

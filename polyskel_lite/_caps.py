@@ -1,7 +1,7 @@
 """The part of each sphere that other balls cover: one cap for each ball whose sphere crosses it.
 
-A point of a sphere is on the boundary of the union iff it is in no cap. Only power neighbours have to be asked,
-because what is left of a sphere is the part in its own power cell.
+A point of a sphere is on the boundary of the union iff it is in no cap. Only power neighbours have to be
+asked, because what is left of a sphere is the part in its own power cell.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class Caps(NamedTuple):
 def caps(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> Caps:
     """List the caps of all spheres.
 
-    Balls that touch, and balls that stick out of another one by nothing but rounding, make no cap; the arcs of
-    `polyskel_lite.spheres` ignore them in the same way.
+    Balls that touch, and balls that stick out of another one by nothing but rounding, make no cap; the arcs
+    of `polyskel_lite.spheres` ignore them in the same way.
 
     Parameters
     ----------

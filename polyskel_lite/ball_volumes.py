@@ -1,23 +1,24 @@
 """Exact area and volume of a union of balls in space.
 
 Two methods are in the literature. Inclusion-exclusion adds up the intersections of the pairs, triples and
-quadruples in the dual complex (Edelsbrunner 1995, Attali and Edelsbrunner 2007); the other one measures the patches
-of the spheres that are left on the boundary (Connolly 1983). Here the patches are measured, for two reasons.
-Inclusion-exclusion needs a dual complex without a single wrong simplex, and the formula for four balls is at its
-worst for flat quadruples, which cospherical points make in numbers. And the usual formula for a patch, Gauss-Bonnet,
-needs the Euler number of the patch, so that one lost arc makes an error of a whole turn. Green's theorem on the
-sphere needs none of this: it is a sum over arcs, right up to whole spheres, and an arc that rounding has lost or
-shortened costs no more than its own length.
+quadruples in the dual complex (Edelsbrunner 1995, Attali and Edelsbrunner 2007); the other one measures the
+patches of the spheres that are left on the boundary (Connolly 1983). Here the patches are measured, for two
+reasons. Inclusion-exclusion needs a dual complex without a single wrong simplex, and the formula for four
+balls is at its worst for flat quadruples, which cospherical points make in numbers. And the usual formula for
+a patch, Gauss-Bonnet, needs the Euler number of the patch, so that one lost arc makes an error of a whole
+turn. Green's theorem on the sphere needs none of this: it is a sum over arcs, right up to whole spheres, and
+an arc that rounding has lost or shortened costs no more than its own length.
 
-With A the area of a patch, n its normals, and c, r its ball, the divergence theorem gives the volume of the union as
-the sum of (r A + c · ∫n) / 3 over all patches, and Stokes' theorem gives ∫n = ½ ∮ p × dp from the arcs as well.
+With A the area of a patch, n its normals, and c, r its ball, the divergence theorem gives the volume of the
+union as the sum of (r A + c · ∫n) / 3 over all patches, and Stokes' theorem gives ∫n = ½ ∮ p × dp from the
+arcs as well.
 
 References
 ----------
-Edelsbrunner, The union of balls and its dual shape, Discrete Comput. Geom. 13, 1995, 415-440. Attali and Edelsbrunner,
-Inclusion-exclusion formulas from independent complexes, Discrete Comput. Geom. 37, 2007, 59-77. Connolly, Analytical
-molecular surface calculation, J. Appl. Cryst. 16, 1983, 548-558. Van Oosterom and Strackee, The solid angle of a plane
-triangle, IEEE Trans. Biomed. Eng. 30, 1983, 125-126.
+Edelsbrunner, The union of balls and its dual shape, Discrete Comput. Geom. 13, 1995, 415-440. Attali and
+Edelsbrunner, Inclusion-exclusion formulas from independent complexes, Discrete Comput. Geom. 37, 2007, 59-77.
+Connolly, Analytical molecular surface calculation, J. Appl. Cryst. 16, 1983, 548-558. Van Oosterom and
+Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 1983, 125-126.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ import numpy as np
 
 from ._ball_pairs import lengths
 from ._caps import circle_offset
-from .spheres import SphereBoundary, strictly_inside
+from .power import PowerTriangulation
+from .spheres import SphereBoundary, sphere_boundary, strictly_inside
 
 _WHOLE = 4 * np.pi
 _PIECES = 4  # so that no piece of an arc turns by more than a right angle
@@ -37,7 +39,9 @@ _POLES = np.cos(np.arange(1.0, 49).reshape(16, 3) ** 2)
 _POLES /= np.sqrt((_POLES**2).sum(axis=1, keepdims=True))
 
 
-def area(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> float:
+def surface_area(
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary | None = None
+) -> float:
     """Compute the area of the boundary of a union of balls, walls of cavities included.
 
     Parameters
@@ -45,8 +49,9 @@ def area(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> fl
     centers : (k, 3) float array
     radii : (k,) float array
         No two balls equal.
-    boundary : SphereBoundary
-        Of the same balls.
+    power : PowerTriangulation
+    boundary : SphereBoundary, optional
+        Both of the same balls; the boundary is computed if it is not given.
 
     Returns
     -------
@@ -54,9 +59,9 @@ def area(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> fl
 
     Notes
     -----
-    Exact to rounding, about 1e-15 r² for each ball, as long as the arcs are. Where many spheres pass through one
-    point, or nearly coincide, rounding decides which arcs are found; the error is then at most about r times the
-    length of the arcs in doubt (`Polyball` says how much that is).
+    Exact to rounding, about 1e-15 r² for each ball, as long as the arcs are. Where many spheres pass through
+    one point, or nearly coincide, rounding decides which arcs are found; the error is then at most about r
+    times the length of the arcs in doubt (`Polyball` says how much that is).
 
     Examples
     --------
@@ -64,16 +69,18 @@ def area(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> fl
 
     >>> import numpy as np
     >>> from polyskel_lite.power import power_triangulation
-    >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> found = sphere_boundary(centers, radii, power_triangulation(centers, radii))
-    >>> round(area(centers, radii, found) / np.pi, 12)
+    >>> round(surface_area(centers, radii, power_triangulation(centers, radii)) / np.pi, 12)
     6.0
     """
+    if boundary is None:
+        boundary = sphere_boundary(centers, radii, power)
     return float(patch_areas(centers, radii, boundary)[0].sum())
 
 
-def volume(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> float:
+def volume(
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary | None = None
+) -> float:
     """Compute the volume of a union of balls.
 
     Parameters
@@ -81,8 +88,9 @@ def volume(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> 
     centers : (k, 3) float array
     radii : (k,) float array
         No two balls equal.
-    boundary : SphereBoundary
-        Of the same balls.
+    power : PowerTriangulation
+    boundary : SphereBoundary, optional
+        Both of the same balls; the boundary is computed if it is not given.
 
     Returns
     -------
@@ -90,7 +98,8 @@ def volume(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> 
 
     Notes
     -----
-    As exact as `area`, with the error of each patch multiplied by its distance from the middle of the balls.
+    As exact as `surface_area`, with the error of each patch multiplied by its distance from the middle of the
+    balls.
 
     Examples
     --------
@@ -98,12 +107,12 @@ def volume(centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary) -> 
 
     >>> import numpy as np
     >>> from polyskel_lite.power import power_triangulation
-    >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> found = sphere_boundary(centers, radii, power_triangulation(centers, radii))
-    >>> round(volume(centers, radii, found) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
+    >>> round(volume(centers, radii, power_triangulation(centers, radii)) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
     (2.25, 2.25)
     """
+    if boundary is None:
+        boundary = sphere_boundary(centers, radii, power)
     areas, normals = patch_areas(centers, radii, boundary)
     places = centers - (centers.min(axis=0) + centers.max(axis=0)) / 2
     return float((radii * areas + (places * normals).sum(axis=1)).sum() / 3)
@@ -116,8 +125,11 @@ def patch_areas(
 
     Parameters
     ----------
-    centers, radii, boundary
-        As for `area`.
+    centers : (k, 3) float array
+    radii : (k,) float array
+        No two balls equal.
+    boundary : SphereBoundary
+        Of the same balls.
 
     Returns
     -------
