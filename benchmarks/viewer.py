@@ -1,9 +1,9 @@
-"""How fast the skeleton viewer is in headless Chromium, without a graphics card: `python benchmarks/viewer.py`.
+"""How fast the skeleton viewer is in headless Chromium, without a graphics card.
 
     .venv/bin/python benchmarks/viewer.py [--polygons 5000 50000] [--browser /usr/bin/chromium]
 
-Prints a table: size of the page, milliseconds from opening it to the first picture, and the median and largest
-time from one picture to the next while the reader turns it, moves the threshold, or both simplify the shape.
+Prints a table: size of the page, milliseconds from opening it to the first picture, and from one picture to
+the next (median, longest) while the reader turns it, moves the threshold, or simplifies the shape.
 """
 
 from __future__ import annotations

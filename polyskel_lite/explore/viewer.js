@@ -342,12 +342,12 @@ const SOURCES = {
       shade = tint(corner.x < 0.5 ? va : vb); world = corner.x < 0.5 ? a : b;
     }`,
     `${FRAGMENT_HEAD}
-    uniform float width; uniform float tube; uniform float alpha; in vec3 shade; in vec2 q; in float span; in vec3 world;
+    uniform float width; uniform float tube; uniform float alpha; uniform float hard; in vec3 shade; in vec2 q; in float span; in vec3 world;
     void main() {
       keepInside(world);
       float d = length(vec2(max(max(-q.x, q.x - span), 0.0), q.y));
       float cover = clamp(width * 0.5 - d + 0.5, 0.0, 1.0);
-      if (cover < 0.02) discard;
+      if (cover < (hard > 0.5 ? 0.5 : 0.02)) discard;
       float h = clamp(2.0 * abs(q.y) / max(width, 1.0), 0.0, 1.0); // shaded across only: no beads at the joints
       color = vec4(shade * mix(1.0, 1.06 - 0.5 * h * h, tube), cover * alpha);
     }`,
@@ -359,10 +359,10 @@ const SOURCES = {
     void main() { gl_Position = toClip * vec4(place, 1.0); gl_Position.z -= nearer * gl_Position.w;
       gl_PointSize = width + 1.0; shade = tint(own); world = place; }`,
     `${FRAGMENT_HEAD}
-    uniform float width; uniform float alpha; in vec3 shade; in vec3 world;
+    uniform float width; uniform float alpha; uniform float hard; in vec3 shade; in vec3 world;
     void main() { keepInside(world);
       float d = length(gl_PointCoord - 0.5) * (width + 1.0), cover = clamp(width * 0.5 - d + 0.5, 0.0, 1.0);
-      if (cover < 0.05) discard; color = vec4(shade, cover * alpha); }`,
+      if (cover < (hard > 0.5 ? 0.5 : 0.05)) discard; color = vec4(shade, cover * alpha); }`,
   ],
 };
 
@@ -936,6 +936,7 @@ class Viewer {
   render(width, height, ratio, level) {
     const { view, buffers, camera, header, cut, shapeCut, filter, sceneNow: scene } = this;
     const gl = view.gl, solid = this.dimension === 3, colors = header.colors;
+    const fine = LEVELS[level].samples > 1;
     const clip = solid && scene.header.vertices.far ? " CLIP" : "";
     gl.viewport(0, 0, width, height);
     gl.enable(gl.SCISSOR_TEST);
@@ -952,7 +953,7 @@ class Viewer {
       ...camera.matrices(width / height, this.outline()), ...camera.lights(), size: [width, height],
       low: solid ? camera.center.map((c, k) => c - camera.half[k] - margin) : camera.center.map((c) => c - 1e3 * wide),
       high: solid ? camera.center.map((c, k) => c + camera.half[k] + margin) : camera.center.map((c) => c + 1e3 * wide),
-      plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0,
+      plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0, hard: solid && !fine ? 1 : 0,
     };
     const skeleton = color === "none" ? { plain: [...rgb(colors.skeleton), 1] } : {};
     const grow = ratio * clamp(camera.zoom ** 0.35, 0.8, 2.2);
@@ -1042,7 +1043,11 @@ class Viewer {
       gl.depthMask(true);
     }
 
-    // 3. Wires: edges on no polygon.
+    // 3. Wires: edges on no polygon. In space their soft rims would hide what lies behind: samples, or none at all.
+    if (solid) {
+      gl.disable(gl.BLEND);
+      if (fine) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    }
     if (this.get("edges")) {
       const thick = (solid ? 4 : 2.4) * grow;
       const key = `${stamp}|${cut}`;
@@ -1068,6 +1073,9 @@ class Viewer {
       view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.samples), 1], width: (solid ? 3.2 : 3.6) * grow, nearer: solid ? 0.002 : 0 });
       gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
     }
+
+    gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    gl.enable(gl.BLEND);
 
     // 4. In space, the shape as glass: what faces away from the reader first. The whole shape is a ghost around it.
     if (solid && scene.simplices && opacity > 0.004) {

@@ -1,0 +1,279 @@
+"""The skeleton viewer: what it sends to the browser, and what it says without one."""
+
+import base64
+import importlib
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+
+pytest.importorskip("anywidget", reason="the viewer needs the extra lab")
+
+from polyskel_lite import explore
+from polyskel_lite.explore import _pack
+
+ROOT = Path(__file__).resolve().parent.parent
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+
+
+@pytest.fixture(scope="module")
+def leaf():
+    return psl.hierarchy(psl.datasets.load("leaf"), strategy="branch")
+
+
+@pytest.fixture(scope="module")
+def solids():
+    P = psl.delaunay_shape(psl.datasets.load("fourbranch"))
+    return [psl.hierarchy(P, strategy) for strategy in ("surface", "wireframe")]
+
+
+def expected(h, threshold):
+    skeleton = h.skeleton(threshold)
+    return {
+        "vertices": len(skeleton.vertices),
+        "edges": len(skeleton.edges),
+        "polygons": len(skeleton.polygons),
+        "branches": h.branches(threshold).graph["branches"],
+    }
+
+
+def thresholds(h, count=12):
+    """Round numbers, levels themselves, and the neighbours of a level."""
+    finite = np.sort(h.level[np.isfinite(h.level)])
+    some = finite[np.linspace(0, len(finite) - 1, count).astype(int)]
+    beside = np.nextafter(some[count // 2], [-np.inf, np.inf])
+    return [-np.inf, 0.0, np.pi / 3, np.pi, 2 * np.pi, *some, *beside, finite[-1] + 1]
+
+
+def test_elements_shown_are_those_of_the_hierarchy_in_the_plane(leaf):
+    picture = explore.viewer(leaf)
+    for threshold in thresholds(leaf):
+        assert picture.counts(threshold) == expected(leaf, threshold), threshold
+
+
+def test_elements_shown_are_those_of_the_hierarchies_in_space(solids):
+    picture = explore.viewer(solids)
+    for h in solids:
+        picture.strategy = h.strategy
+        for threshold in thresholds(h, 6):
+            assert picture.counts(threshold) == expected(h, threshold), (h.strategy, threshold)
+
+
+def test_hierarchies_with_holes_and_both_criteria():
+    P = psl.delaunay_shape(psl.datasets.load("lake"))
+    both = [psl.hierarchy(P, criterion=criterion) for criterion in ("corrected", "as printed")]
+    picture = explore.viewer(both)
+    assert [h["label"] for h in picture.scene["variants"][0]["hierarchies"]] == [
+        "branch, corrected",
+        "branch, as printed",
+    ]
+    for h in both:
+        picture.strategy = f"branch, {h.criterion}"
+        assert picture.counts(3.0) == expected(h, 3.0)
+    assert picture.scene["variants"][0]["hierarchies"][0]["betti"] == [1, 2]
+
+
+def test_arrays_come_back(leaf):
+    packer, rng = _pack.Packer(), np.random.default_rng(0)
+    sent = {
+        "small": rng.integers(0, 200, 31),
+        "middle": rng.integers(0, 60_000, 32),
+        "large": rng.integers(0, 2**31, 33),
+        "pairs": np.sort(rng.integers(0, 300, 40)),
+        "none": np.zeros(0, dtype=int),
+        "levels": np.array([-np.inf, 0.1, np.inf]),
+    }
+    refs = {name: packer.add(array, delta=2 * (name == "pairs")) for name, array in sent.items()}
+    data = _pack.unpack(packer.block())
+    for name, array in sent.items():
+        np.testing.assert_array_equal(_pack.read(data, refs[name]), array)
+        assert refs[name]["at"] % 8 == 0
+    assert [refs[name]["type"] for name in ("small", "middle", "large", "levels")] == ["u1", "u2", "u4", "f8"]
+
+
+def test_places_are_rounded_far_below_a_pixel_and_far_ones_kept(leaf):
+    skeleton = leaf.skeleton(-np.inf)
+    places = np.vstack([skeleton.vertices, [(1e6, -1e6)]])
+    low, high = places[:-1].min(axis=0), places[:-1].max(axis=0)
+    packer = _pack.Packer()
+    ref = packer.places(places, low, high)
+    back = _pack.read_places(_pack.unpack(packer.block()), ref)
+    assert np.abs(back - places)[:-1].max() < 1e-5 * (high - low).max()
+    np.testing.assert_array_equal(back[-1], places[-1])
+
+
+def test_radii_and_places_in_the_header_are_those_of_the_skeleton(leaf):
+    picture = explore.viewer(leaf)
+    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
+    skeleton = leaf.skeleton(-np.inf)
+    radii = _pack.read(data, header["radius"]) / _pack.GRID * picture.scene["radius"]
+    np.testing.assert_allclose(radii, skeleton.radii, atol=1e-4)
+    np.testing.assert_allclose(_pack.read_places(data, header["vertices"]), skeleton.vertices, atol=1e-4)
+    edges = _pack.read(data, header["edges"]).reshape(-1, 2)
+    assert {tuple(e) for e in edges.tolist()} == {tuple(sorted(e)) for e in skeleton.edges.tolist()}
+
+
+def test_axis_that_points_up_is_the_third_in_the_browser(solids):
+    plain = explore.viewer(solids[:1])
+    turned = explore.viewer(solids[:1], view={"elev": 15, "azim": 18, "vertical_axis": "y"})
+    assert turned.scene["high"] == np.roll(plain.scene["high"], 1).tolist()
+    assert turned.scene["view"] == {"elev": 15.0, "azim": 18.0}
+
+
+def test_same_input_gives_the_same_page(leaf):
+    pages = [explore.viewer(leaf, alt="A leaf.", look="Look.").to_html() for _ in range(2)]
+    assert pages[0] == pages[1]
+
+
+def page_data(page):
+    return json.loads(re.search(r'<script type="application/json">(.*?)</script>', page, re.S)[1])
+
+
+def test_page_holds_the_data_and_three_pictures_for_readers_without_scripts(leaf):
+    picture = explore.viewer(
+        leaf, threshold=np.pi, alt='A "leaf" & more.', look="Short ones go </script> first."
+    )
+    data, metadata = picture._repr_mimebundle_()
+    page = data["text/html"]
+    assert WIDGET_VIEW in data
+    assert metadata == {}
+    held = page_data(page)
+    assert base64.b64decode(held["blob"]) == picture.blob
+    assert held["threshold"] == np.pi
+    assert held["scene"]["look"] == "Short ones go </script> first."
+    assert page.count('src="data:image/png;base64,') == page.count("<figcaption>") == 3
+    for alt in re.findall(r'alt="([^"]*)"', page):
+        assert alt.startswith("A &quot;leaf&quot; &amp; more. Threshold")
+    assert "<noscript" not in page  # the still pictures are there until the module takes their place
+    assert not re.search(r"https?://", page)
+    assert len(page) < 70_000
+
+
+def test_nothing_removed_travels_as_null(solids):
+    picture = explore.viewer(solids, threshold=-np.inf)
+    assert page_data(picture.to_html())["threshold"] is None
+    assert picture.get_state("threshold") == {"threshold": None}
+    picture.set_state({"threshold": 1.0})
+    assert picture.threshold == 1.0
+    picture.set_state({"threshold": None})
+    assert picture.threshold == -np.inf
+
+
+def test_dict_of_variants_shares_one_scale():
+    horse = psl.datasets.load("horse")
+    shapes = {f"n = {n}": psl.conform(horse.resample(n)) for n in (60, 120)}
+    picture = explore.viewer(shapes, variant="number of samples", threshold=1.0)
+    first, second = picture.scene["variants"]
+    scales = [{k: h[k] for k in ("largest", "power")} for h in first["hierarchies"] + second["hierarchies"]]
+    assert scales[0] == scales[1]
+    assert picture.scene["variant"] == "Number of samples"
+    picture.variant = "n = 120"
+    assert picture.counts() == expected(psl.hierarchy(shapes["n = 120"]), 1.0)
+    assert picture.to_html().count("<figcaption>Number of samples: n = ") == 2
+
+
+def test_skeleton_alone_has_no_threshold():
+    points = np.random.default_rng(1).random((20, 2))
+    voronoi = psl.voronoi(points)
+    picture = explore.viewer(voronoi)
+    assert not picture.scene["filters"]
+    assert not picture.scene["shape"]
+    assert picture.counts()["edges"] == len(voronoi.edges)
+    header = picture.scene["variants"][0]
+    assert _pack.read(_pack.unpack(picture.blob), header["rays"]).size == 8 * len(voronoi.rays)
+    assert picture.to_html().count("<img ") == 1
+
+
+def test_skeleton_in_a_shape():
+    shape = psl.conform(psl.datasets.load("gear"))
+    picture = explore.viewer(psl.sk2(shape), shape=shape, color="none", samples=True)
+    assert picture.scene["shape"]
+    assert picture.samples
+
+
+@pytest.mark.parametrize(
+    ("source", "options", "words"),
+    [
+        ("a leaf", {}, "cannot show str"),
+        ([], {}, "cannot show list"),
+        ({}, {}, "is empty"),
+        ("leaf", {"color": "red"}, "unknown color 'red'"),
+        ("leaf", {"threshold": np.nan}, "threshold is nan"),
+        ("leaf", {"strategy": "surface"}, "unknown strategy 'surface'"),
+        ("leaf", {"variant": "v", "opcaity": 1}, "unknown option 'opcaity'"),
+        ("twice", {}, "the same strategy and criterion"),
+        ("mixed", {}, "different shapes"),
+        ("kinds", {}, "another dimension or other strategies"),
+    ],
+)
+def test_errors_say_what_to_do(source, options, words, leaf, solids):
+    lake = psl.hierarchy(psl.datasets.load("lake"))
+    known = {
+        "leaf": leaf,
+        "twice": [leaf, leaf],
+        "mixed": [leaf, lake],
+        "kinds": {"a": leaf, "b": solids[0]},
+    }
+    source = known.get(source, source) if isinstance(source, str) else source
+    with pytest.raises(psl.InputError, match=words):
+        explore.viewer(source, **options)
+
+
+def test_saved_page_needs_nothing_else(leaf, tmp_path):
+    explore.viewer(leaf, alt="A leaf.").save(tmp_path / "index.html", title="Leaf & skeleton")
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "<title>Leaf &amp; skeleton</title>" in page
+    assert page.count("export default { render }") == 1
+    command = [sys.executable, str(ROOT / "tools" / "check_offline.py"), str(tmp_path)]
+    assert subprocess.run(command, capture_output=True).returncode == 0
+
+
+def test_module_can_stand_in_a_page():
+    module = (ROOT / "polyskel_lite" / "explore" / "viewer.js").read_text(encoding="utf-8")
+    assert "</script" not in module
+    assert not re.search(r"https?://|\bimport\b[^.]*\bfrom\b", module)
+
+
+def test_stored_notebooks_keep_the_page_and_not_the_live_widget():
+    sys.path.insert(0, str(ROOT / "tools"))
+    try:
+        from run_notebooks import clean
+    finally:
+        sys.path.pop(0)
+    data = {WIDGET_VIEW: {"model_id": "7"}, "text/html": "<p>still here</p>", "text/plain": "SkeletonViewer"}
+    output = nbformat.v4.new_output("display_data", data=data)
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("x", outputs=[output])])
+    notebook.metadata["widgets"] = {"application/vnd.jupyter.widget-state+json": {}}
+    cleaned = clean(notebook, "01_x")
+    assert set(cleaned.cells[0].outputs[0].data) == {"text/html", "text/plain"}
+    assert "widgets" not in cleaned.metadata
+
+
+def test_library_does_not_need_widgets():
+    hidden = """
+import sys
+sys.modules["anywidget"] = None
+import polyskel_lite
+assert "ipywidgets" not in sys.modules
+from polyskel_lite import explore
+explore.viewer
+"""
+    done = subprocess.run([sys.executable, "-c", hidden], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 1
+    assert "ImportError: polyskel_lite.explore needs anywidget, which is not installed" in done.stderr
+    assert "pip install polyskel-lite[lab]" in done.stderr
+
+
+def test_names_of_the_package_are_functions_even_after_their_modules_are_imported():
+    importlib.import_module("polyskel_lite.explore.viewer")
+    assert callable(explore.viewer)
+    assert "viewer" in dir(explore)
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = explore.nothing
