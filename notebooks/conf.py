@@ -2,10 +2,17 @@
 
 import json
 import tomllib
+from html import escape
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BOOK = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))
+
+
+def hosted_on(*hosts: str) -> bool:
+    """Whether the book names a repository and one of these hosts has it."""
+    return BOOK["book"].get("repository", "").startswith(tuple(f"https://{host}/" for host in hosts))
+
 
 project = BOOK["book"]["title"]
 author = ", ".join(BOOK["book"]["authors"])
@@ -48,8 +55,15 @@ if "repository" in BOOK["book"]:
     html_theme_options |= {
         "repository_url": BOOK["book"]["repository"],
         "repository_branch": BOOK["book"].get("branch", "main"),
+        "repository_provider": BOOK["book"].get("provider", ""),
         "path_to_docs": "notebooks",
         "use_repository_button": True,
+        "launch_buttons": {
+            "notebook_interface": "jupyterlab",
+            "binderhub_url": "https://mybinder.org" if hosted_on("github.com", "gitlab.com") else "",
+            "colab_url": "https://colab.research.google.com" if hosted_on("github.com") else "",
+            "jupyterlite_url": BOOK["book"].get("lite", ""),
+        },
     }
 
 # A widget is shown as the page's own HTML, and no script of a widget manager is fetched for it.
@@ -76,6 +90,17 @@ def references_as_list(app, pagename, templatename, context, doctree):
         context["body"] = context["body"].replace('role="doc-biblioentry"', 'role="listitem"')
 
 
+def say_what_colab_needs(app, pagename, templatename, context, doctree):
+    """Colab opens a chapter without the library: under the title stands the cell that brings it there."""
+    if hosted_on("github.com") and "kernelspec" in app.env.metadata.get(pagename, {}):
+        copy = f"{BOOK['book']['repository']}@{BOOK['book'].get('branch', 'main')}"
+        library = f"polyskel-lite[graph,files,meshes] @ git+{copy}"
+        cell = f'<code>%pip install -q "{escape(library)}" anywidget</code>'
+        hint = f"<p>To run this chapter, use the rocket above. On Colab, run this first: {cell}</p>"
+        context["body"] = context["body"].replace("</h1>", "</h1>" + hint, 1)
+
+
 def setup(app):
+    app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)
     app.connect("html-page-context", add_viewer)
