@@ -148,7 +148,7 @@ def fragment(layer: Layer, view: View) -> str:
 def swatch(layer: Layer) -> str:
     """The entry of one layer in a legend: HTML of a small picture and its label."""
     filled = bool(len(layer.polygons) or len(layer.circles[0]))
-    dotted = bool(len(layer.points) or kind_of(layer.kind).marker)
+    dotted = not len(layer.lines) and bool(len(layer.points) or kind_of(layer.kind).marker)
     return _swatch(
         layer.kind, layer.label, filled, dotted, layer.fill, layer.stroke, layer.width, layer.opacity
     )

@@ -53,7 +53,16 @@ function render({ model, el }) {
       answered = 0;
     }
     settle();
+    nameSliders();
     root.dataset.busy = String(Boolean(sent || moved));
+  }
+
+  // The controls' sliders come without a name for readers of the screen: give them the label beside them.
+  function nameSliders() {
+    for (const slider of root.closest(".psl-explorer")?.querySelectorAll(".widget-slider") ?? []) {
+      const handle = slider.querySelector(".noUi-handle:not([aria-label])");
+      handle?.setAttribute("aria-label", slider.querySelector(".widget-label")?.textContent || "value");
+    }
   }
 
   // The newest place only, and only when the kernel is done with the one before: moves never queue up.

@@ -216,7 +216,7 @@ class Board(anywidget.AnyWidget):
 
     @property
     def legend(self) -> str:
-        """HTML of the legend: the visible layers that have a label."""
+        """HTML of the legend: the layers that have a label and something to be seen."""
         return self._legend
 
     def _show(self, name: str) -> None:
@@ -229,8 +229,8 @@ class Board(anywidget.AnyWidget):
             return kind_of(layer.kind).zorder if layer.order is None else layer.order
 
         self._layers = sorted(self.layers, key=height)
-        shown = [self.layers[name] for name in self.layers if self._seen[name]]
-        self._legend = "".join(dict.fromkeys(swatch(layer) for layer in shown if layer.label))
+        shown = [layer for name, layer in self.layers.items() if layer.label and self.picture(name)]
+        self._legend = "".join(dict.fromkeys(map(swatch, shown)))
 
     @traitlets.validate("handles")
     def _keep_in_box(self, proposal):

@@ -15,7 +15,7 @@ from .board import Board
 #: What the stored page says where the controls would be.
 NEEDS_KERNEL = (
     "The controls of this picture need a running Python: open this chapter in JupyterLab "
-    "(<code>make lab</code>) and run its cells."
+    "(<code>make lab</code>, or a launch button of this page) and run its cells."
 )
 
 
@@ -77,6 +77,7 @@ class Explorer(ipywidgets.VBox):
         board.observe(self._changed, "handles")
         row = ipywidgets.HBox(list(self.controls.values()), layout={"flex_flow": "row wrap"})
         super().__init__([hint, row, board])
+        self.add_class("psl-explorer")  # board.js looks for it
         self.update()
 
     def draw(self) -> None:

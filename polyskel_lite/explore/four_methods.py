@@ -74,7 +74,7 @@ class FourMethods(Explorer):
         board, found = self.board, self.skeletons()
         E, betti = found["sk1"].tessellation.points, self.shape.betti()
         everywhere = np.concatenate([E + offset for offset in self.offsets.values()])
-        board.draw("samples", "samples", points=everywhere, width=0.7)
+        board.draw("samples", "samples", points=everywhere, width=0.7, label="samples E")
         words = {}
         for name in _NAMES:
             words[name] = f"Sk{name[2]}: {self._draw_one(name, found[name])}"

@@ -31,11 +31,12 @@ class Sampling(Explorer):
         self._shifts = np.random.default_rng(seed).normal(size=(high, 2))
         board = Board(box_around(self.shape.points, 0.08))
         board.draw("shape", "shape", polygons=rings, label="shape X")
+        board.draw("outline", "shape", polygons=rings, fill=False, order=3)  # over the balls
         controls = {
             "n": ipywidgets.IntSlider(n, min=low, max=high, description="samples n"),
             "start": ipywidgets.FloatSlider(0.0, min=0, max=0.95, step=0.05, description="shift, in steps"),
             "noise": ipywidgets.FloatSlider(0.0, min=0, max=2, step=0.05, description="noise, % of the size"),
-            "polyball": ipywidgets.Checkbox(False, description="polyball Y_w", indent=False),
+            "polyball": ipywidgets.Checkbox(False, description="polyball of Sk2", indent=False),
         }
         super().__init__(
             board,
