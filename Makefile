@@ -7,7 +7,7 @@ LARGEST ?= 200000
 FIRST  := notebooks/01_introduction.ipynb
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint unit chapters browser lab figures bench run lock clean
+.PHONY: help book test lint unit chapters browser lab lite figures bench run lock clean
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
@@ -38,7 +38,7 @@ lint: $(VENV)/.installed  ## ruff: rules and format
 
 unit: $(VENV)/.installed  ## unit and property tests, doctests
 	@echo "Unit tests, property tests and doctests ..."
-	@$(BIN)/python -m pytest -n $(JOBS) --mpl --ignore tests/browser
+	@$(BIN)/python -m pytest -n $(JOBS) --mpl -rs --ignore tests/browser
 
 # addopts is emptied because doctest has nothing to find in a notebook. A chapter is one process: --dist loadfile.
 chapters: $(VENV)/.installed  ## run every notebook and compare with what is stored
@@ -52,6 +52,11 @@ browser: book  ## every page, the viewer and the explorers in Chromium (skipped 
 
 lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
 	$(BIN)/jupyter lab $(FIRST)
+
+lite: $(VENV)/.installed  ## build a site in which the chapters run in the browser, nothing to install
+	@echo "Building the browser site (about ten seconds) ..."
+	@$(BIN)/python tools/build_lite.py --output _build/lite
+	@echo "The site is ready, for a web server. To try it: $(BIN)/python -m http.server --directory _build/lite"
 
 figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to figures/
 	@echo "Drawing the paper's figures into figures/ ..."
