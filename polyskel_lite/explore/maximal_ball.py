@@ -15,6 +15,8 @@ from .explorer import Explorer
 #: Distinct contacts are found up to this share of the radius, and a centre counts as on the skeleton when
 #: it is nearer to it than this share of the picture's width (three pixels).
 TOUCH, SNAP = 1e-6, 3 / 640
+#: A centre that is nearer to the boundary than this share of the width is on it.
+EDGE = 1e-6
 
 
 class MaximalBall(Explorer):
@@ -53,45 +55,48 @@ class MaximalBall(Explorer):
         if not trace:
             self._seen.clear()
         self._draw_skeleton(skeleton)
-        start = np.array(board.handles[0])
-        seen = "centres of maximal balls" if trace else None
-        if shape.locate([start])[0] <= 0:
-            for name in ("ball", "contacts", "way"):
-                board.draw(name, "samples")
-            board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)), width=1.5, label=seen)
+        start, width = np.array(board.handles[0]), board.box[2] - board.box[0]
+        if not shape.contains([start])[0] or shape.boundary_distance([start])[0] < EDGE * width:
+            self._draw_ball(start, None)
             board.alt = "A shape; the chosen centre is not inside it."
             self.tell("No ball: the centre is not inside the shape. Drag it back in.")
             return
         radius, center, full = grow(shape, start)
         moved = float(np.hypot(*(center - start)))
-        maximal = moved <= SNAP * (board.box[2] - board.box[0])
-        if maximal:
-            share = 1.0
-        here, size = start + share * (center - start), radius + share * (full - radius)
-        contacts = _contacts(shape, here, size)
-        if trace:
-            self._seen = [*self._seen[-1999:], center]
-        board.draw("ball", "balls", circles=([here], [size]), label="ball")
-        board.draw("contacts", "samples", points=contacts, width=2.5, label="contacts")
-        board.draw("way", "samples", lines=[[start, here]], width=1.5)
-        board.draw("trace", "sk0", points=np.reshape(self._seen, (-1, 2)), width=1.5, label=seen)
-        if maximal:
-            remark = "The centre is on the skeleton: its ball is maximal, it cannot grow."
+        if moved <= SNAP * width:
+            remark, share = "The centre is on the skeleton: its ball is maximal, it cannot grow.", 1.0
         elif share == 1:
             remark = "Grown until it is maximal: the centre has moved onto the skeleton."
         else:
             remark = "Not maximal: a larger ball in the shape holds this one."
+        if trace:
+            self._seen = [*self._seen[-1999:], center]
+        size = radius + share * (full - radius)
+        contacts = self._draw_ball(start + share * (center - start), size)
         board.alt = (
-            f"A shape, a ball of radius {size:.3g} in it that touches the boundary in {len(contacts)} points"
+            f"A shape, a ball of radius {size:.3g} in it that touches the boundary in {contacts} points"
             + (f", and {len(self._seen)} centres of maximal balls." if self._seen else ".")
         )
         self.tell(
             remark,
-            contacts=len(contacts),
+            contacts=contacts,
             radius=size,
             radius_at_the_dot=radius,
             distance_from_the_dot_to_the_skeleton=moved,
         )
+
+    def _draw_ball(self, center: np.ndarray, radius: float | None) -> int:
+        """Draw the ball, its way and the trace; the number of its contacts."""
+        board, ball, contacts, way = self.board, ([], []), (), ()
+        if radius is not None:
+            ball, contacts = ([center], [radius]), _contacts(self.shape, center, radius)
+            way = [[board.handles[0], center]]
+        board.draw("ball", "balls", circles=ball, label="ball")
+        board.draw("contacts", "samples", points=contacts, width=2.5, label="contacts")
+        board.draw("way", "samples", lines=way, width=1.5)
+        trace = np.reshape(self._seen, (-1, 2))
+        board.draw("trace", "sk0", points=trace, width=1.5, label="centres of maximal balls")
+        return len(contacts)
 
     def _draw_skeleton(self, wanted: bool) -> None:
         if wanted and "skeleton" not in self.board.layers:
