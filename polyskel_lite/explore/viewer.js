@@ -8,6 +8,7 @@
 
 const PI = Math.PI;
 const STEPS = 400; // of the threshold slider
+const BAR = 46; // height of the scale of colours
 // Without a graphics card a picture of many polygons takes long; while it moves it may be a coarser one.
 const LEVELS = [
   { name: "smooth", scale: 1, samples: 4 },
@@ -19,6 +20,7 @@ const STYLE = `
 .psl { --psl-line: color-mix(in srgb, currentColor 28%, transparent);
   color: var(--pst-color-text-base, var(--jp-content-font-color1, inherit));
   font-family: inherit; font-size: 0.9rem; line-height: 1.4; margin: 0.6rem 0; }
+html[data-theme="dark"] .bd-content div.cell_output .text_html:has(.psl) { background: transparent !important; }
 .psl * { box-sizing: border-box; }
 .psl p { margin: 0.35rem 0; }
 .psl-look { font-weight: 600; }
@@ -547,28 +549,33 @@ class Camera {
     ]);
   }
 
-  /** How strong the lens must be for the outline, seen from the first place, to fill the stage. */
-  fit(aspect, places) {
-    if (this.lens?.aspect === aspect && this.lens.places === places) return this.lens.f;
-    const m = this.eye(this.view.azim, this.view.elev);
-    let wide = 1e-9;
+  /** How strong the lens must be for what is shown, seen from the first place, to fill the stage, and its middle. */
+  fit(aspect, places, free) {
+    if (this.lens?.aspect === aspect && this.lens.places === places && this.lens.free === free) return this.lens;
+    const m = this.eye(this.view.azim, this.view.elev), low = [Infinity, Infinity], high = [-Infinity, -Infinity];
     for (let i = 0; i < places.length; i += 3) {
       const [x, y, z] = [places[i], places[i + 1], places[i + 2]];
       const w = this.flat ? 1 : -(m[2] * x + m[6] * y + m[10] * z + m[14]);
-      wide = Math.max(wide, Math.abs(m[0] * x + m[4] * y + m[8] * z + m[12]) / w / aspect,
-        Math.abs(m[1] * x + m[5] * y + m[9] * z + m[13]) / w);
+      for (const k of [0, 1]) {
+        const at = (m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]) / w;
+        low[k] = Math.min(low[k], at);
+        high[k] = Math.max(high[k], at);
+      }
     }
-    this.lens = { aspect, places, f: 0.92 / wide };
-    return this.lens.f;
+    const size = Math.max((high[0] - low[0]) / aspect, (high[1] - low[1]) / free, 1e-9);
+    this.lens = { aspect, places, free, f: 1.9 / size, x: (low[0] + high[0]) / 2 / aspect, y: (low[1] + high[1]) / 2 };
+    return this.lens;
   }
 
-  matrices(aspect, places) {
-    const eye = this.eye(), f = this.fit(aspect, places) * this.zoom, { x, y } = this;
+  /** `free` is the share of the height that is not under the scale of colours. */
+  matrices(aspect, places, free) {
+    const eye = this.eye(), lens = this.fit(aspect, places, free), f = lens.f * this.zoom;
+    const x = this.x - lens.x * f, y = this.y + 1 - free - lens.y * f;
     // Looking along -z: in space w = -z, in the plane w = 1. The pan is a shift of the picture.
-    const lens = this.flat
+    const out = this.flat
       ? [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, -0.25, 0, x, y, -0.9, 1]
       : [f / aspect, 0, 0, 0, 0, f, 0, 0, -x, -y, -1.947, -1, 0, 0, -5.305, 0];
-    return { toClip: product(new Float32Array(lens), eye) };
+    return { toClip: product(new Float32Array(out), eye) };
   }
 
   /** Unit vectors to the light, which is over the reader's left shoulder, and to the reader. */
@@ -950,7 +957,7 @@ class Viewer {
     const color = this.get("color"), opacity = this.get("opacity");
     const wide = 4 * camera.radius, margin = 0.3 * camera.radius;
     const base = {
-      ...camera.matrices(width / height, this.outline()), ...camera.lights(), size: [width, height],
+      ...camera.matrices(width / height, this.outline(), 1 - (BAR * ratio) / height), ...camera.lights(), size: [width, height],
       low: solid ? camera.center.map((c, k) => c - camera.half[k] - margin) : camera.center.map((c) => c - 1e3 * wide),
       high: solid ? camera.center.map((c, k) => c + camera.half[k] + margin) : camera.center.map((c) => c + 1e3 * wide),
       plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0, hard: solid && !fine ? 1 : 0,
@@ -1135,8 +1142,8 @@ class Viewer {
     const w = Math.min(150 * ratio, width * 0.4), h = 9 * ratio, x = 14 * ratio, y = height - 34 * ratio;
     const gradient = context.createLinearGradient(x, 0, x + w, 0);
     header.ramp.forEach((hex, k) => gradient.addColorStop(k / (header.ramp.length - 1), hex));
-    context.fillStyle = "rgba(255,255,255,0.8)";
-    context.fillRect(x - 10 * ratio, y - 20 * ratio, w + 24 * ratio, 52 * ratio);
+    context.fillStyle = "rgba(255,255,255,0.75)";
+    context.fillRect(x - 10 * ratio, y - 18 * ratio, w + 24 * ratio, 50 * ratio);
     context.fillStyle = gradient;
     context.fillRect(x, y, w, h);
     context.fillStyle = "#222";
