@@ -75,9 +75,10 @@ class FourMethods(Explorer):
         E, betti = found["sk1"].tessellation.points, self.shape.betti()
         everywhere = np.concatenate([E + offset for offset in self.offsets.values()])
         board.draw("samples", "samples", points=everywhere, width=0.7, label="samples E")
-        words = {}
+        words, self.numbers = {}, {"shape": betti, "n": len(E)}
         for name in _NAMES:
-            words[name] = f"Sk{name[2]}: {self._draw_one(name, found[name])}"
+            counts = self.numbers[f"Sk{name[2]}"] = _counts(found[name])
+            words[name] = f"Sk{name[2]}: {self._draw_one(name, found[name], counts)}"
             heading = (*(self._heading + self.offsets[name]), words[name])
             board.draw(f"heading_{name}", "samples", text=[heading])
         shift = self.offsets["sk0"]
@@ -91,7 +92,7 @@ class FourMethods(Explorer):
         }
         board.text = f"Shape: Betti {betti}. " + " · ".join(words.values())
 
-    def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError) -> str:
+    def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError, counts: dict | None) -> str:
         """Draw one skeleton in its own picture, and say its numbers."""
         if isinstance(skeleton, PolyskelError):
             self.board.draw(name, name)
@@ -100,7 +101,7 @@ class FourMethods(Explorer):
         lines, label = skeleton.segments() + self.offsets[name], f"Sk_{name[2]}"
         points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
         self.board.draw(name, name, lines=lines, points=points, label=label)
-        return "{vertices} vertices, {edges} edges, Betti {betti}".format(**_counts(skeleton))
+        return "{vertices} vertices, {edges} edges, Betti {betti}".format(**counts)
 
 
 def _counts(skeleton: Skeleton | PolyskelError) -> dict | None:
