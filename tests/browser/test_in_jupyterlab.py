@@ -1,6 +1,7 @@
 """Explorers and viewer in a real JupyterLab: server and kernels of the test's own, mouse and keyboard."""
 
 import json
+import math
 import os
 import re
 import secrets
@@ -101,10 +102,15 @@ def notebook(visit, lab) -> Callable:
         book.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
         nbformat.write(book, lab.folder / f"{name}.ipynb")
         opened = visit(lab.address, f"lab/tree/{name}.ipynb?token={TOKEN}&reset")
-        opened.page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for()
+        idle(opened.page)
         return opened
 
     return open_notebook
+
+
+def idle(page) -> None:
+    """Wait until the kernel is connected and at rest, as the line at the foot of the window says."""
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
 
 
 def run(page, number: int) -> str:
@@ -113,7 +119,7 @@ def run(page, number: int) -> str:
     cell.locator(".cm-content").first.click()
     page.keyboard.press("Shift+Enter")
     cell.locator(".jp-InputPrompt").get_by_text(re.compile(r"\[\d+\]")).wait_for()
-    page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").wait_for()
+    idle(page)
     return "".join(cell.locator(".jp-OutputArea-output pre").all_inner_texts())
 
 
@@ -190,4 +196,41 @@ def test_the_viewer_and_python_tell_each_other_the_threshold(notebook):
         == int(root.get_attribute("data-branches"))
         == hierarchy.branches(moved).graph["branches"]
     )
+    assert opened.outside() == []
+
+
+def test_an_uploaded_file_goes_through_the_whole_chain(notebook, tmp_path):
+    leaf = psl.datasets.load("leaf")
+    rings = [[*leaf.points[ring].tolist(), leaf.points[ring[0]].tolist()] for ring in leaf.rings()]
+    files = {
+        "place.geojson": {"type": "Point", "coordinates": [1, 2]},
+        "leaf.geojson": {"type": "Polygon", "coordinates": rings},
+    }
+    for name, content in files.items():
+        (tmp_path / name).write_text(json.dumps(content), encoding="utf-8")
+    refused = explore.explore(tmp_path / "place.geojson").error
+    hierarchy = explore.explore(tmp_path / "leaf.geojson").hierarchy
+
+    opened = notebook("own", "from polyskel_lite import explore\nexplore.explore()")
+    page = opened.page
+    run(page, 0)
+    for name, role in (("place.geojson", "alert"), ("leaf.geojson", "status")):
+        with page.expect_file_chooser() as waiting:
+            page.get_by_role("button", name="choose a file").click()
+        waiting.value.set_files(tmp_path / name)
+        words = (
+            str(refused) if role == "alert" else f"leaf: {len(leaf.points)} vertices, Betti numbers (1, 0)."
+        )
+        page.get_by_role(role).get_by_text(words).wait_for()
+    root = page.locator(".psl-viewer[data-ready=true]")
+    root.locator("[data-control=threshold]").press("ArrowRight")
+    threshold = float(root.get_attribute("data-threshold"))
+    page.get_by_text(f"Branches at the threshold {threshold / math.pi:.3g} π").wait_for()
+    lines = hierarchy.branches(threshold).number_of_edges()
+    assert page.locator(".jp-OutputArea table tbody tr").count() == lines > 1
+    page.get_by_role("button", name="make files to download").click()
+    with page.expect_download() as waiting:
+        page.get_by_role("link", name="leaf-skeleton.npz").click()
+    skeleton = psl.Skeleton.load(waiting.value.path())
+    assert len(skeleton.vertices) == len(hierarchy.skeleton(threshold).vertices)
     assert opened.outside() == []
