@@ -198,6 +198,23 @@ def test_skeleton_in_a_shape():
     assert picture.samples
 
 
+def test_polyballs_in_the_plane_and_in_space():
+    Y = psl.Polyball([(0, 0), (1, 0), (5, 0)], [1, 0.8, 0.5])
+    picture = explore.viewer({"three": Y, "two": psl.Polyball(Y.centers[:2], Y.radii[:2])})
+    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
+    points = _pack.read_places(data, header["points"])
+    outline = points[_pack.read(data, header["surface"])]
+    assert np.abs(Y.boundary_distance(outline)).max() < 1e-3
+    assert picture.counts()["vertices"] == len(Y.skeleton().vertices)
+    assert not picture.scene["samples"]
+    assert picture.to_html().count("<img ") == 2
+    solid = psl.Polyball([(0, 0, 0), (1, 0, 0)], [1, 0.8])
+    picture = explore.viewer(solid)
+    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
+    assert _pack.read(data, header["surface"]).size == solid.patches()[1].size
+    assert picture.counts()["edges"] == len(solid.skeleton().edges)
+
+
 @pytest.mark.parametrize(
     ("source", "options", "words"),
     [

@@ -12,9 +12,11 @@ from typing import Any
 import numpy as np
 
 from ..complexes import Skeleton
+from ..polyballs import Polyball
 from ..simplification import Hierarchy
 
 GRID = 65535
+CORNERS = 72  # of the polygon that stands for a circle
 
 
 class Packer:
@@ -168,6 +170,42 @@ def pack_shape(packer: Packer, P, turn, low, high) -> dict[str, Any]:
         "simplices": packer.add(P.tessellation.simplices[P.inner]),
         "samples": packer.add(np.arange(len(P.tessellation.points)), delta=1),
     }
+
+
+def pack_polyball(packer: Packer, Y: Polyball, turn, low, high) -> dict[str, Any]:
+    """Pack the boundary of a `Polyball` and, in the plane, triangles that fill its discs.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> packer = Packer()
+    >>> Y = psl.Polyball([(0, 0), (1, 0)], [1, 1])
+    >>> header = pack_polyball(packer, Y, np.asarray, np.full(2, -2), np.full(2, 2))
+    >>> read(unpack(packer.block()), header["fill"]).size == 2 * 3 * CORNERS
+    True
+    """
+    if Y.dimension == 3:
+        points, facets, _ = Y.patches()
+        return {"points": packer.places(turn(points), low, high), "surface": packer.add(facets)}
+    whole = np.arange(CORNERS) * (2 * np.pi / CORNERS)
+    discs = Y.centers[:, None] + Y.radii[:, None, None] * _directions(whole)
+    first = np.arange(len(Y))[:, None] * CORNERS + np.arange(CORNERS)
+    middle = np.full(first.shape, len(Y) * CORNERS) + np.arange(len(Y))[:, None]
+    points, lines, count = [discs.reshape(-1, 2), Y.centers], [], len(Y) * (CORNERS + 1)
+    for ball, start, end in zip(*Y.arcs(), strict=True):
+        steps = max(int(np.ceil((end - start) / (2 * np.pi) * CORNERS)), 1)
+        points.append(Y.centers[ball] + Y.radii[ball] * _directions(np.linspace(start, end, steps + 1)))
+        lines.append(count + np.arange(steps)[:, None] + [0, 1])
+        count += steps + 1
+    return {
+        "points": packer.places(np.concatenate(points), low, high),
+        "fill": packer.add(np.stack([middle, first, np.roll(first, -1, axis=1)], axis=2)),
+        "surface": packer.add(np.concatenate(lines)),
+    }
+
+
+def _directions(angles: np.ndarray) -> np.ndarray:
+    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
 
 
 def ranks(h: Hierarchy) -> tuple[np.ndarray, np.ndarray]:

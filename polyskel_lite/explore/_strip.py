@@ -6,12 +6,14 @@ import html
 from base64 import b64encode
 from collections.abc import Sequence
 from io import BytesIO
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from .. import drawing
 from ..errors import ShapeError
+from ..polyballs import Polyball
 
 WIDTH, DPI = 2.6, 110  # of one picture: inches, and dots an inch
 
@@ -119,7 +121,9 @@ def _smaller(file: BytesIO) -> bytes:
 
 def _flat(shape, skeleton, scene):
     fig, ax = drawing.axes(width=WIDTH, height=0.8 * WIDTH)
-    if shape is not None:
+    if isinstance(shape, Polyball):
+        drawing.draw_balls(ax, shape)
+    elif shape is not None:
         try:
             drawing.draw_shape(ax, shape.to_shape(), linewidth=0.6)
         except ShapeError:  # a region that touches itself
@@ -132,7 +136,10 @@ def _flat(shape, skeleton, scene):
 def _solid(shape, skeleton, scene):
     _, ax = drawing.axes_3d(width=WIDTH, height=0.9 * WIDTH)
     ax.view_init(**scene["view"], vertical_axis=scene["up"])
-    if shape is not None:
+    if isinstance(shape, Polyball):
+        points, facets, _ = shape.patches()
+        drawing.draw_glass(ax, SimpleNamespace(points=points, facets=facets))
+    elif shape is not None:
         drawing.draw_glass(ax, shape)
     drawing.draw_skeleton_3d(ax, skeleton, values=skeleton.radii, limits=(0.0, scene["radius"]))
     up = "xyz".index(scene["up"])

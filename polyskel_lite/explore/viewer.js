@@ -113,8 +113,12 @@ class Scene {
     this.corners = get("corners") ?? new Uint16Array(0);
     this.rays = get("rays");
     this.points = header.points ? positions(buffer, header.points, dimension) : new Float32Array(0);
-    this.samples = get("samples");
+    this.samples = header.samples ? Uint32Array.from(get("samples")) : null;
     this.simplices = get("simplices");
+    const index = (name) => (header[name] ? Uint32Array.from(get(name)) : null);
+    this.surface = index("surface"); // of a polyball: its boundary and, in the plane, triangles that fill its discs
+    this.fill = index("fill");
+    this.shaped = Boolean(this.simplices || this.surface);
     this.starts = new Uint32Array(this.sizes.length + 1);
     for (let p = 0; p < this.sizes.length; p++) this.starts[p + 1] = this.starts[p] + this.sizes[p];
     this.findSides();
@@ -271,7 +275,8 @@ class Filter {
 
   /** Facets of the boundary of the simplified shape, flat, turned outward. */
   boundary(cut) {
-    const { facets, owners, dimension: N } = this.scene, out = [];
+    const { facets, owners, dimension: N, surface } = this.scene, out = [];
+    if (surface) return surface;
     for (let f = 0; f < owners.length / 2; f++) {
       const a = owners[2 * f], b = owners[2 * f + 1];
       const first = this.rank[a] >= cut, second = b >= 0 && this.rank[b] >= cut;
@@ -1012,15 +1017,21 @@ class Viewer {
     // 1. In the plane, the filled shape lies under everything.
     gl.disable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
-    if (!solid && scene.simplices) {
+    if (!solid && scene.shaped) {
       bindPoints();
+      // Discs of a polyball overlap; equal depths let each pixel be filled once.
+      gl.enable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.LESS);
       const fill = (name, atCut, hex, alpha) => {
+        gl.clear(gl.DEPTH_BUFFER_BIT);
         const entry = buffers.get(name, `${label}|${atCut}`, () => this.region(scene, filter, atCut), gl.ELEMENT_ARRAY_BUFFER);
         view.use(`faces${clip}`, { ...base, plain: [...rgb(hex), 1], alpha });
         gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0);
       };
       if (shapeCut) fill("region-all", 0, colors.removed, opacity * 0.6);
       fill("region", shapeCut, colors.fill, opacity);
+      gl.disable(gl.DEPTH_TEST);
+      gl.depthFunc(gl.LEQUAL);
       gl.disableVertexAttribArray(0);
       const line = (name, atCut, hex, width, alpha) => segments(name, `${label}|${atCut}`, facetEnds(atCut), {
         plain: [...rgb(hex), 1], width: width * ratio, alpha: alpha * Math.min(1, 2 * opacity) });
@@ -1076,7 +1087,7 @@ class Viewer {
     if (this.get("samples") && scene.samples) {
       bindPoints();
       gl.vertexAttrib3f(1, 0, 0, 0);
-      const entry = buffers.get("samples", scene.label, () => Uint32Array.from(scene.samples), gl.ELEMENT_ARRAY_BUFFER);
+      const entry = buffers.get("samples", scene.label, () => scene.samples, gl.ELEMENT_ARRAY_BUFFER);
       view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.samples), 1], width: (solid ? 3.2 : 3.6) * grow, nearer: solid ? 0.002 : 0 });
       gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
     }
@@ -1085,7 +1096,7 @@ class Viewer {
     gl.enable(gl.BLEND);
 
     // 4. In space, the shape as glass: what faces away from the reader first. The whole shape is a ghost around it.
-    if (solid && scene.simplices && opacity > 0.004) {
+    if (solid && scene.shaped && opacity > 0.004) {
       bindPoints();
       gl.vertexAttrib3f(1, 0, 0, 0);
       gl.enable(gl.CULL_FACE);
@@ -1102,22 +1113,23 @@ class Viewer {
     }
   }
 
-  /** The points that the first view must show. */
+  /** The points that the first view must show: samples, or other points of the shape, or the skeleton in its box. */
   outline() {
     if (this.outlined) return this.outlined;
-    const places = [];
+    const places = [], { center, half } = this.camera;
     for (const scene of this.scenes) {
-      const source = scene.samples ? scene.points : scene.vertices;
-      const rows = scene.samples ?? Uint32Array.from({ length: scene.count }, (_, i) => i);
+      const source = scene.points.length ? scene.points : scene.vertices;
+      const rows = scene.samples ?? Uint32Array.from({ length: source.length / 3 }, (_, i) => i);
       for (const v of rows) {
         const p = [source[3 * v], source[3 * v + 1], source[3 * v + 2]];
-        if (scene.samples || p.every((x, k) => Math.abs(x - this.camera.center[k]) <= this.camera.half[k] + 1e-9)) places.push(...p);
+        if (scene.points.length || p.every((x, k) => Math.abs(x - center[k]) <= 1.001 * half[k])) places.push(...p);
       }
     }
     return (this.outlined = Float32Array.from(places));
   }
 
   region(scene, filter, cut) {
+    if (scene.fill) return scene.fill;
     const out = [], s = scene.simplices;
     for (let t = 0; t < s.length / 3; t++) if (filter.rank[t] >= cut) out.push(s[3 * t], s[3 * t + 1], s[3 * t + 2]);
     return Uint32Array.from(out);

@@ -19,6 +19,7 @@ from ..complexes import Skeleton
 from ..delaunay_shapes import DelaunayShape, delaunay_shape
 from ..drawing import KINDS, RAMP, VIEW
 from ..errors import InputError
+from ..polyballs import Polyball
 from ..shapes import Shape
 from ..simplification import Hierarchy, hierarchy
 from . import _pack, _strip
@@ -34,7 +35,7 @@ class State:
     """One thing to show: a shape (or none), its whole skeleton, its hierarchies (or none)."""
 
     label: str
-    P: DelaunayShape | None
+    P: DelaunayShape | Polyball | None
     skeleton: Skeleton
     hierarchies: tuple[Hierarchy, ...]
     names: tuple[str, ...]
@@ -58,7 +59,7 @@ def viewer(
 
     Parameters
     ----------
-    source : Hierarchy, list of Hierarchy, Shape, DelaunayShape, Skeleton, or dict of these
+    source : Hierarchy, list of Hierarchy, Shape, DelaunayShape, Polyball, Skeleton, or dict of these
         Several hierarchies of one shape give a switch between strategies; a dict gives a slider that
         switches between its entries, named by its keys. Hierarchies of shapes are made here.
     strategies : list of str, optional
@@ -75,7 +76,7 @@ def viewer(
         A sentence over the picture: what to look for.
     variant : str
         What the keys of a dict are, such as "number of samples".
-    shape : Shape or DelaunayShape, optional
+    shape : Shape, DelaunayShape or Polyball, optional
         To be shown around a `Skeleton`.
     view : (elevation, azimuth) in degrees, or dict, optional
         Where the camera stands in 3D, as for ``ax.view_init`` (``elev``, ``azim``, ``vertical_axis``).
@@ -288,6 +289,8 @@ def _state(label: str, source, strategies, shape) -> State:
     if isinstance(source, Skeleton):
         P = None if shape is None else _delaunay(shape)
         return State(label, P, source, (), ())
+    if isinstance(source, Polyball):
+        return State(label, source, source.skeleton(), (), ())
     if isinstance(source, (Shape, DelaunayShape)):
         P = _delaunay(source)
         if strategies is None:
@@ -298,7 +301,7 @@ def _state(label: str, source, strategies, shape) -> State:
     if not isinstance(source, Sequence) or not source or not all(isinstance(h, Hierarchy) for h in source):
         raise InputError(
             f"cannot show {type(source).__name__}; pass a Hierarchy, a list of them, a Shape, "
-            "a DelaunayShape, a Skeleton, or a dict of these."
+            "a DelaunayShape, a Polyball, a Skeleton, or a dict of these."
         )
     P = source[0].P
     if any(h.P is not P and not _same(h.P, P) for h in source):
@@ -311,8 +314,8 @@ def _state(label: str, source, strategies, shape) -> State:
     return State(label, P, source[0].skeleton(-np.inf), tuple(source), tuple(names))
 
 
-def _delaunay(shape) -> DelaunayShape:
-    return shape if isinstance(shape, DelaunayShape) else delaunay_shape(shape)
+def _delaunay(shape) -> DelaunayShape | Polyball:
+    return shape if isinstance(shape, (DelaunayShape, Polyball)) else delaunay_shape(shape)
 
 
 def _same(P: DelaunayShape, Q: DelaunayShape) -> bool:
@@ -348,7 +351,9 @@ def _scene(states: Sequence[State], variant: str, view, up: int) -> tuple[dict[s
         header = {"label": state.label} | _pack.pack_skeleton(
             packer, _turned(state.skeleton, turn), radius, *grid
         )
-        if state.P is not None:
+        if isinstance(state.P, Polyball):
+            header |= _pack.pack_polyball(packer, state.P, turn, *grid)
+        elif state.P is not None:
             header |= _pack.pack_shape(packer, state.P, turn, *grid)
         betti = _betti(state)
         header["hierarchies"] = []
@@ -365,10 +370,12 @@ def _scene(states: Sequence[State], variant: str, view, up: int) -> tuple[dict[s
         about = _pack.scale(np.concatenate([state.hierarchies[k].level for state in states]))
         for header in variants:
             header["hierarchies"][k] |= about
+    balls = any(isinstance(state.P, Polyball) for state in states)
+    look = KINDS["balls" if balls else "shape"]
     colors = {
-        "shape": KINDS["shape"].color,
-        "fill": KINDS["shape"].fill,
-        "glass": "#6E7B85",
+        "shape": look.color,
+        "fill": look.fill,
+        "glass": "#8A7F2E" if balls else "#6E7B85",
         "ghost": "#9AA5AD",
         "removed": "#F6F6F6",
         "samples": KINDS["samples"].color,
@@ -388,7 +395,7 @@ def _scene(states: Sequence[State], variant: str, view, up: int) -> tuple[dict[s
         "strategy": "Strategy",
         "filters": bool(states[0].names),
         "shape": any(state.P is not None for state in states),
-        "samples": any(state.P is not None for state in states),
+        "samples": any(isinstance(state.P, DelaunayShape) for state in states),
         "variants": variants,
     }
     return header, packer.block()
@@ -400,6 +407,9 @@ def _hex(color) -> str:
 
 def _box(state: State) -> tuple[np.ndarray, np.ndarray]:
     """The box of what must be seen: the shape, or the skeleton if there is none."""
+    if isinstance(state.P, Polyball):
+        reach = state.P.radii[:, None]
+        return (state.P.centers - reach).min(axis=0), (state.P.centers + reach).max(axis=0)
     if state.P is not None:
         points = state.P.tessellation.points[np.unique(state.P.boundary())]
     elif state.skeleton.tessellation is not None:
