@@ -88,7 +88,7 @@ def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
     if not len(row):
         return np.full(len(points), np.inf)
     circles = boundary.circles
-    size = np.ceil((end - start) / _PIECE).astype(np.int64)
+    size = np.ceil((end - start) / _PIECE).astype(np.intp)
     arc = np.repeat(np.arange(len(row)), size)
     number = np.arange(len(arc)) - np.repeat(np.cumsum(size) - size, size)
     half = ((end - start) / size / 2)[arc]

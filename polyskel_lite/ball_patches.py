@@ -145,7 +145,7 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     row, start, end, whole, ends = row[kept], start[kept], end[kept], whole[kept], ends[:, kept]
     length = (end - start) * circles.radii[row] / edge[circles.pairs[row]].min(axis=1)
     # Two edges at least, or two arcs between the same singular points would be the same edge.
-    pieces = np.maximum(np.ceil(np.maximum(length, (end - start) / _TURN)).astype(np.int64), 2)
+    pieces = np.maximum(np.ceil(np.maximum(length, (end - start) / _TURN)).astype(np.intp), 2)
     arc = np.repeat(np.arange(len(row)), pieces)
     place = np.arange(len(arc)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     begin = np.where((place == 0) & ~whole[arc], ends[0, arc], 0)

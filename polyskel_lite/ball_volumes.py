@@ -153,7 +153,7 @@ def patch_areas(
     circles = boundary.circles
     i, j = circles.pairs[row].T
     d = lengths(centers[j] - centers[i])
-    ball = np.concatenate([i, j])
+    ball = np.concatenate([i, j]).astype(np.intp)
     # The patch of the second ball is on the left of its arcs, that of the first one on the right.
     sign = np.repeat([-1.0, 1.0], len(row))
     offset = np.concatenate([circle_offset(d, radii[i], radii[j]), -circle_offset(d, radii[j], radii[i])])

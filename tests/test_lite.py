@@ -47,6 +47,37 @@ for name, to, strategy in [
 print("found " + json.dumps(found))
 """
 
+# Every example of every docstring; one that says which package it misses is passed over.
+EXAMPLES = """
+import doctest, importlib, json, pkgutil, sys
+import matplotlib
+matplotlib.use("Agg")
+import polyskel_lite
+
+class Runner(doctest.DocTestRunner):
+    missing = 0
+
+    def report_unexpected_exception(self, out, test, example, info):
+        if "pip install polyskel-lite[" in str(info[1]):
+            self.missing += 1
+        else:
+            super().report_unexpected_exception(out, test, example, info)
+            broken.add(test.name)
+
+    def report_failure(self, out, test, example, got):
+        super().report_failure(out, test, example, got)
+        broken.add(test.name)
+
+tried, broken = 0, set()
+runner = Runner(optionflags=doctest.NORMALIZE_WHITESPACE | doctest.FAIL_FAST, verbose=False)
+for found in pkgutil.walk_packages(polyskel_lite.__path__, "polyskel_lite."):
+    if not found.name.startswith("polyskel_lite.explore") and not found.name.endswith("__main__"):
+        for test in doctest.DocTestFinder().find(importlib.import_module(found.name)):
+            runner.run(test)
+            tried += bool(test.examples)
+print("found " + json.dumps({"tried": tried, "missing": runner.missing, "broken": sorted(broken)}))
+"""
+
 # A browser has none of these, and no threads or processes.
 WITHOUT = """
 import importlib.abc, multiprocessing, subprocess, sys, threading
@@ -100,14 +131,31 @@ def test_library_runs_without_extras_threads_and_processes(native):
     assert native == everything
 
 
-def test_library_finds_the_same_in_pyodide(native, site, tmp_path):
+@pytest.fixture
+def in_pyodide(request, tmp_path):
+    """Runs a script on the wheel of the site in Pyodide."""
     node, runtime = shutil.which("node"), pyodide("pyodide.mjs").parent
     if node is None:
         pytest.skip("node is not installed, so nothing was tried in Pyodide.")
-    script = tmp_path / "chain.py"
-    script.write_text(CHAIN, encoding="utf-8")
-    (wheel,) = (site / "pypi").glob("polyskel_lite-*.whl")
-    browser = found(run(node, ROOT / "tests" / "in_pyodide.mjs", runtime, wheel, script))
+    (wheel,) = (request.getfixturevalue("site") / "pypi").glob("polyskel_lite-*.whl")
+
+    def run_script(text: str) -> dict:
+        script = tmp_path / "script.py"
+        script.write_text(text, encoding="utf-8")
+        return found(run(node, ROOT / "tests" / "in_pyodide.mjs", runtime, wheel, script, timeout=600))
+
+    return run_script
+
+
+def test_examples_of_the_docstrings_are_true_in_pyodide(in_pyodide):
+    result = in_pyodide(EXAMPLES)
+    assert result["broken"] == []
+    assert result["tried"] > 200
+    assert 0 < result["missing"] < 20  # SVG and mesh files, networkx
+
+
+def test_library_finds_the_same_in_pyodide(native, in_pyodide):
+    browser = in_pyodide(CHAIN)
     assert browser.pop("integer") == 4
     assert native["integer"] == 8
     assert browser == {name: value for name, value in native.items() if name != "integer"}
