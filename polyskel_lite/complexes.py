@@ -69,7 +69,7 @@ class Skeleton:
     tessellation: Tessellation | None = None
 
     def __post_init__(self):
-        # The integer that NumPy counts with, also in a browser, where it has 32 bits: np.bincount(edges.ravel()).
+        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
         object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
         object.__setattr__(self, "polygons", Polygons.of(self.polygons))
         if self.rays is None:
