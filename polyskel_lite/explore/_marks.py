@@ -164,7 +164,7 @@ def _swatch(kind, label, filled, dotted, fill, stroke, width, opacity) -> str:
         sample |= {"points": [(1.5, 0.5)]}
     else:
         sample |= {"lines": [[(0, 0.5), (3, 0.5)]]}
-    size = 'viewBox="0 0 300 100" width="30" height="10" aria-hidden="true"'
+    size = 'viewBox="0 0 300 100" width="30" height="10" aria-hidden="true" style="background:#ffffff"'
     picture = f"<svg {size}>{fragment(Layer(**sample), view)}</svg>"
     return f'<span style="margin-right:1.2em;white-space:nowrap">{picture} {words(label)}</span>'
 
