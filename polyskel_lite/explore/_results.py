@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 #: A page shows so many branches, the longest ones; the CSV file has them all.
 ROWS_SHOWN = 40
+_CELL = "padding:0.1em 0.7em;text-align:right;font-variant-numeric:tabular-nums"
 
 
 class Branch(NamedTuple):
@@ -86,14 +87,14 @@ def branch_table(rows: list[Branch], caption: str = "Branches, the longest first
     if left_out > 0:
         caption += f" ({ROWS_SHOWN} of {len(rows)}; the CSV file has all of them)"
     heads = ("number", "from", "to", "length", "mean radius", "mean width", "least radius", "largest radius")
-    lines = [f"<table><caption>{html.escape(caption)}</caption>", "<thead><tr>"]
-    lines += [f'<th scope="col">{head}</th>' for head in heads]
+    lines = [f'<table style="border-collapse:collapse"><caption>{html.escape(caption)}</caption><thead><tr>']
+    lines += [f'<th scope="col" style="{_CELL}">{head}</th>' for head in heads]
     lines.append("</tr></thead><tbody>")
     for number, row in enumerate(rows[:ROWS_SHOWN], start=1):
         numbers = (row.length, row.mean_radius, 2 * row.mean_radius, row.least_radius, row.largest_radius)
         cells = [row.start, row.end, *(f"{value:.4g}" for value in numbers)]
-        lines.append(f'<tr><th scope="row">{number}</th>')
-        lines += [f"<td>{html.escape(cell)}</td>" for cell in cells]
+        lines.append(f'<tr><th scope="row" style="{_CELL}">{number}</th>')
+        lines += [f'<td style="{_CELL}">{html.escape(cell)}</td>' for cell in cells]
         lines.append("</tr>")
     return "".join([*lines, "</tbody></table>"])
 

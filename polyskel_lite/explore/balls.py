@@ -285,10 +285,12 @@ class Balls(Explorer):
                     self._centers[i] = places[k]
                 chosen.value = i
         i = chosen.value
-        if self._shown[0] == i and radius.value != self._shown[1]:
+        # The browser moves the slider to the nearest of its steps by itself: that is not the reader's hand.
+        if self._shown[0] == i and abs(radius.value - self._shown[1]) > 0.51 * radius.step:
             self._radii[i] = radius.value
-        radius.value = float(np.clip(self._radii[i], radius.min, radius.max))
-        self._shown = (i, radius.value)
+        elif self._shown[0] != i or self._radii[i] != self._shown[1]:
+            radius.value = float(np.clip(self._radii[i], radius.min, radius.max))
+        self._shown = (i, float(np.clip(self._radii[i], radius.min, radius.max)))
 
     def _handles(self) -> np.ndarray:
         """Centre and rim of every ball; a rim whose place is off the board is turned to where it is on it."""

@@ -148,7 +148,13 @@ class Explore(ipywidgets.VBox):
             accept=",".join(SUFFIXES), multiple=False, description="choose a file", layout={"width": "12em"}
         )
         self.smooth = ipywidgets.FloatSlider(
-            1.0, min=0, max=5, step=0.5, description="smoothing of pictures (pixels)", **wide
+            1.0,
+            min=0,
+            max=5,
+            step=0.5,
+            description="smoothing of pictures (pixels)",
+            layout={"width": "32em"},
+            **wide,
         )
         self.invert = ipywidgets.Checkbox(
             False, description="the bright part of a picture is the shape", **wide

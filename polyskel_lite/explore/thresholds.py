@@ -184,11 +184,11 @@ def threshold_text(numbers: dict[str, object]) -> str:
     Examples
     --------
     >>> threshold_text({"threshold": 0.5, "simplices": 9, "of": 12, "ends": 1, "Betti_numbers": (1, 0)})
-    'Threshold 0.50 π: 9 of 12 simplices stay, the skeleton has 1 branch that ends, Betti numbers (1, 0).'
+    'Threshold 0.50 π: 9 of 12 triangles stay, the skeleton has 1 branch that ends, Betti numbers (1, 0).'
     """
     branches = "1 branch that ends" if numbers["ends"] == 1 else f"{numbers['ends']} branches that end"
     return (
-        f"Threshold {numbers['threshold']:.2f} π: {numbers['simplices']} of {numbers['of']} simplices stay, "
+        f"Threshold {numbers['threshold']:.2f} π: {numbers['simplices']} of {numbers['of']} triangles stay, "
         f"the skeleton has {branches}, Betti numbers {numbers['Betti_numbers']}."
     )
 
