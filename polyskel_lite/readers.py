@@ -28,7 +28,7 @@ _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", 
 # What np.load raises for a file that is cut short, has a byte changed, or is none of its files at all.
 _BROKEN_ARRAYS = (
     *(OSError, ValueError, TypeError, IndexError, EOFError, NotImplementedError, RuntimeError),
-    *(zipfile.BadZipFile, zlib.error),
+    *(OverflowError, zipfile.BadZipFile, zlib.error),
 )
 # Values nearer to the level than this share of the largest difference are moved away from it.
 _NUDGE = 1e-4

@@ -278,7 +278,7 @@ def counts(header: dict[str, Any], data: bytes, threshold: float, strategy: int 
     True
     """
     n = header["vertices"]["grid"]["size"] // len(header["vertices"]["low"])
-    edges = read(data, header["edges"]).astype(np.int64).reshape(-1, 2)
+    edges = read(data, header["edges"]).astype(np.intp).reshape(-1, 2)
     about = header["hierarchies"][strategy]
     rank, cut = np.zeros(n, dtype=np.int64), 0
     if "rank" in about:
@@ -288,7 +288,7 @@ def counts(header: dict[str, Any], data: bytes, threshold: float, strategy: int 
     edges = edges[keep[edges].all(axis=1)]
     covered, polygons = np.zeros(n, dtype=bool), 0
     if "sizes" in header:
-        sizes, corners = read(data, header["sizes"]).astype(np.int64), read(data, header["corners"])
+        sizes, corners = read(data, header["sizes"]).astype(np.intp), read(data, header["corners"])
         whole = np.logical_and.reduceat(keep[corners], np.cumsum(sizes) - sizes)
         polygons = int(whole.sum())
         covered[corners[np.repeat(whole, sizes)]] = True
