@@ -10,12 +10,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ._ball_pairs import rounding
 from ._caps import Caps, caps
 from .discs import TURN
 from .power import PowerTriangulation
 from .spheres import SphereBoundary
 
 _CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
+_BELIEVED = 1e-12  # share of the size: where this decides, the point is taken for the end of an arc
 _PIECE = np.pi / 4  # arcs are found by pieces that turn by no more than this
 
 
@@ -58,7 +60,9 @@ def distance_to_boundary(
     [0.866, 1.0, 0.3, 1.0]
     """
     distance = _to_balls(queries, centers, radii)
-    inside = np.flatnonzero(distance < 0)
+    # A point on many spheres that surround it is in no open ball, but inside the union all the same.
+    believed = _BELIEVED * (np.abs(centers).max() + radii.max())
+    inside = np.flatnonzero(distance <= believed)
     if len(inside):
         points = queries[inside]
         best = _to_arcs(points, boundary)
@@ -125,6 +129,11 @@ def _to_patches(points, centers, radii, exposed, covered: Caps, best) -> None:
     """Lower `best` to the distance of the nearest point straight ahead of a centre that is in no cap."""
     balls = np.flatnonzero(exposed)
     size = np.diff(covered.first)
+    # A foot on the edge of a cap is left to the arc there, if there is one: where many edges meet in a point
+    # that they surround, there is none.
+    ball = np.repeat(np.arange(len(radii)), size)
+    edge = _BELIEVED * np.sqrt(np.maximum(1 - covered.heights**2, 0))
+    heights = covered.heights - edge - rounding(centers, radii, ball, ball) / radii[ball]
     step = max(1, _CHUNK // len(balls))
     for first in range(0, len(points), step):
         far = _lengths(points[first : first + step], centers[balls])
@@ -141,6 +150,6 @@ def _to_patches(points, centers, radii, exposed, covered: Caps, best) -> None:
             point, ball, far, gap = point[left], ball[left], far[left], gap[left]
             cap = covered.first[ball] + rank
             along = ((points[point] - centers[ball]) * covered.axes[cap]).sum(axis=1)
-            out = along <= covered.heights[cap] * far
+            out = along <= heights[cap] * far
             point, ball, far, gap = point[out], ball[out], far[out], gap[out]
             rank += 1

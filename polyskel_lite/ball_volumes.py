@@ -26,17 +26,17 @@ from __future__ import annotations
 import numpy as np
 
 from ._ball_pairs import lengths
-from ._caps import circle_offset
+from ._caps import Caps, caps, circle_offset
 from .power import PowerTriangulation
-from .spheres import SphereBoundary, sphere_boundary, strictly_inside
+from .spheres import SphereBoundary, sphere_boundary
 
 _WHOLE = 4 * np.pi
 _PIECES = 4  # so that no piece of an arc turns by more than a right angle
-# Patches or covered parts smaller than this (of the unit sphere) are told apart by looking at a point.
-_CLOSE = 1e-6
-# Directions in general position, from which each sphere takes one that is far from the ends of its arcs.
-_POLES = np.cos(np.arange(1.0, 49).reshape(16, 3) ** 2)
-_POLES /= np.sqrt((_POLES**2).sum(axis=1, keepdims=True))
+_CLOSE = 0.1  # patches and covered parts up to this share of the sphere are told apart by looking at points
+# Directions all around, from which each sphere takes one that is far from the ends of its arcs.
+_HEIGHT = 1 - (2 * np.arange(32) + 1) / 32
+_POLES = np.sqrt(1 - _HEIGHT**2) * np.array([np.cos(2.4 * np.arange(32)), np.sin(2.4 * np.arange(32))])
+_POLES = np.column_stack([_POLES.T, _HEIGHT])
 
 
 def surface_area(
@@ -75,7 +75,7 @@ def surface_area(
     """
     if boundary is None:
         boundary = sphere_boundary(centers, radii, power)
-    return float(patch_areas(centers, radii, boundary)[0].sum())
+    return float(patch_areas(centers, radii, power, boundary)[0].sum())
 
 
 def volume(
@@ -113,13 +113,13 @@ def volume(
     """
     if boundary is None:
         boundary = sphere_boundary(centers, radii, power)
-    areas, normals = patch_areas(centers, radii, boundary)
+    areas, normals = patch_areas(centers, radii, power, boundary)
     places = centers - (centers.min(axis=0) + centers.max(axis=0)) / 2
     return float((radii * areas + (places * normals).sum(axis=1)).sum() / 3)
 
 
 def patch_areas(
-    centers: np.ndarray, radii: np.ndarray, boundary: SphereBoundary
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
 ) -> tuple[np.ndarray, np.ndarray]:
     """Measure what is left of each sphere on the boundary of the union.
 
@@ -128,8 +128,9 @@ def patch_areas(
     centers : (k, 3) float array
     radii : (k,) float array
         No two balls equal.
+    power : PowerTriangulation
     boundary : SphereBoundary
-        Of the same balls.
+        Both of the same balls.
 
     Returns
     -------
@@ -143,8 +144,8 @@ def patch_areas(
     >>> from polyskel_lite.power import power_triangulation
     >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> found = sphere_boundary(centers, radii, power_triangulation(centers, radii))
-    >>> areas, normals = patch_areas(centers, radii, found)
+    >>> power = power_triangulation(centers, radii)
+    >>> areas, normals = patch_areas(centers, radii, power, sphere_boundary(centers, radii, power))
     >>> (areas / np.pi).round(12).tolist(), (normals / np.pi).round(12).tolist()
     ([3.0, 3.0], [[-0.75, 0.0, 0.0], [0.75, 0.0, 0.0]])
     """
@@ -178,15 +179,24 @@ def patch_areas(
     turned = sign * (slices + _triangles(_POLES[pole[ball]], a, b).sum(axis=0))
     share = np.bincount(ball, turned, count) % _WHOLE
 
-    cut = np.bincount(ball, minlength=count) > 0
-    share[~cut] = _WHOLE
-    nothing_or_all = np.flatnonzero(cut & boundary.exposed & ((share < _CLOSE) | (share > _WHOLE - _CLOSE)))
-    opposite = centers[nothing_or_all] - radii[nothing_or_all, None] * _POLES[pole[nothing_or_all]]
-    covered = strictly_inside(opposite, centers, radii, 1e-9)
-    rest = (share[nothing_or_all] + 1) % _WHOLE - 1
-    share[nothing_or_all] = np.clip(np.where(covered, rest, _WHOLE + rest), 0, _WHOLE)
+    share[np.bincount(ball, minlength=count) == 0] = _WHOLE
+    # An arc known too badly may turn almost nothing into almost all: look at some points.
+    free = _free_share(caps(centers, radii, power))
+    share[(free < 0.5) & (share > (1 - _CLOSE) * _WHOLE)] -= _WHOLE
+    share[(free > 0.5) & (share < _CLOSE * _WHOLE)] += _WHOLE
+    share = np.clip(share, 0, _WHOLE)
     share[~boundary.exposed] = 0
     return share * radii**2, normals
+
+
+def _free_share(covered: Caps) -> np.ndarray:
+    """The share of the poles of each sphere that is in no cap, (k,)."""
+    inside = covered.axes @ _POLES.T > covered.heights[:, None]
+    cut = np.flatnonzero(np.diff(covered.first))
+    hidden = np.zeros((len(covered.first) - 1, len(_POLES)), dtype=bool)
+    if len(cut):
+        hidden[cut] = np.logical_or.reduceat(inside, covered.first[cut])
+    return 1 - hidden.mean(axis=1)
 
 
 def _far_poles(ball, places, count) -> np.ndarray:
