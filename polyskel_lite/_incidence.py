@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from .topology import components
+
 # A singular point is on every sphere that it misses by less than this share of the radius.
 ON = 1e-9
 # The same for the distance from the origin: some ten roundings, as often amplified.
 FAR = 1e-14
+# Singular points nearer to each other than this share of the smallest ball through them are one.
+NEAR = 1e-9
 
 
 class Incidence:
@@ -20,21 +24,23 @@ class Incidence:
     centers, radii : (k, N) and (k,) float arrays
     origin : (N,) float array
         What was taken off all coordinates; they were rounded before that.
+    spread : (s,) float array, optional
+        Distance by which each corner may be off, a length.
     """
 
-    def __init__(self, corners, centers, radii, origin):
+    def __init__(self, corners, centers, radii, origin, spread=None):
         self.count = len(radii)
-        slack = FAR * np.abs(origin).max()
+        slack = FAR * np.abs(origin).max() + (np.zeros(len(corners)) if spread is None else spread)
         point, ball = [], []
         octave = np.frexp(radii)[1]
         tree = cKDTree(corners)
         for value in np.unique(octave):
             group = np.flatnonzero(octave == value)
             near = cKDTree(centers[group]).sparse_distance_matrix(
-                tree, radii[group].max() * (1 + 2 * ON) + slack, output_type="ndarray"
+                tree, radii[group].max() * (1 + 2 * ON) + slack.max(initial=0), output_type="ndarray"
             )
             # No singular point is inside a ball, so that "not outside" is "on the sphere".
-            on = near["v"] <= radii[group[near["i"]]] * (1 + ON) + slack
+            on = near["v"] <= radii[group[near["i"]]] * (1 + ON) + slack[near["j"]]
             point.append(near["j"][on])
             ball.append(group[near["i"][on]])
         self.keys = np.unique(np.concatenate(point) * self.count + np.concatenate(ball))
@@ -64,3 +70,31 @@ class Incidence:
         i = np.repeat(np.arange(len(ball)), later)
         j = i + 1 + np.arange(len(i)) - np.repeat(np.cumsum(later) - later, later)
         return np.column_stack([ball[i], ball[j]])
+
+    def smallest(self, radii: np.ndarray) -> np.ndarray:
+        """The radius of the smallest ball through each singular point, (s,)."""
+        smallest = np.full(len(self.first) - 1, np.inf)
+        np.minimum.at(smallest, self.keys // self.count, radii[self.keys % self.count])
+        return smallest
+
+
+def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Incidence]:
+    """One singular point for each group closer together than `NEAR`, and on which spheres it is.
+
+    Where two spheres nearly coincide, a crossing is known so badly that rounding can show it twice.
+    """
+    on = Incidence(corners, centers, radii, origin)
+    reach = NEAR * on.smallest(radii)
+    reach[~np.isfinite(reach)] = 0
+    i, j = cKDTree(corners).query_pairs(reach.max(), output_type="ndarray").T
+    apart = np.sqrt(((corners[i] - corners[j]) ** 2).sum(axis=1))
+    near = apart <= np.minimum(reach[i], reach[j])
+    if not near.any():
+        return corners, on
+    _, group = components(len(corners), np.column_stack([i, j])[near])
+    # The point on most spheres is the best-known one.
+    order = np.lexsort((-np.diff(on.first), group))
+    best = order[np.unique(group[order], return_index=True)[1]]
+    spread = np.zeros(len(best))
+    np.maximum.at(spread, group, np.sqrt(((corners - corners[best][group]) ** 2).sum(axis=1)))
+    return corners[best], Incidence(corners[best], centers, radii, origin, 2 * spread)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ._incidence import Incidence
+from ._incidence import Incidence, gather
 from ._polygons import Polygons
 from ._rows import unique_rows
 from .complexes import Skeleton
@@ -98,8 +98,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
     vertices, sizes = centers, radii
     edges, polygons = [boundary.bridges], Polygons()
     if len(boundary.corners):
-        corners = boundary.corners
-        on = Incidence(corners, vertices, radii, origin)
+        corners, on = gather(boundary.corners, vertices, radii, origin)
         t = _triangulate(corners)
         label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii, power)
         lines = _faces(t, label, on, boundary.exposed, n)

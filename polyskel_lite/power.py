@@ -167,12 +167,7 @@ def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
     points = np.concatenate([points, ghosts])
     weights = np.append(weights, np.zeros(n + 1))
     height = (points**2).sum(axis=1) - weights
-    try:
-        hull = ConvexHull(np.column_stack([points / size, height / size**2]))
-    except QhullError as error:
-        raise TessellationError(
-            f"Qhull could not triangulate these balls: {str(error).splitlines()[0]}"
-        ) from None
+    hull = _hull(np.column_stack([points / size, height / size**2]))
     down = hull.equations[:, n]
     lower = down < -1e-12
     number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
@@ -187,6 +182,17 @@ def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
         power=power * size**2,
         count=len(points) - n - 1,
     )
+
+
+def _hull(points) -> ConvexHull:
+    # Q12: go on where facets are merged widely, as around samples that dozens of balls nearly share. Where
+    # even that fails, QJ moves the points by some 1e-11 of their size, so that nothing needs to be merged.
+    for options in ("Qt Q12", "QJ Q12"):
+        try:
+            return ConvexHull(points, qhull_options=options)
+        except QhullError as error:
+            reason = str(error).splitlines()[0]
+    raise TessellationError(f"Qhull could not triangulate these balls: {reason}")
 
 
 def _simplex_around_the_unit_ball(n: int) -> np.ndarray:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._ball_pairs import PRECISION, ROUNDING, WORST, crossings, lengths, rounding, swallowed, touching
+from ._ball_pairs import PRECISION, ROUNDING, crossings, lengths, rounding, swallowed, touching
 from .discs import TURN, Arcs, Covers, merged, uncovered
 from .power import PowerTriangulation
 
@@ -119,6 +119,8 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, pairs)
 
 
+# However badly known a circle, no point of it is off by more than this angle.
+_WORST = 1e-4
 _POLE = np.array([0.48, 0.6, 0.64])
 
 
@@ -175,8 +177,10 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     d = lengths(centers[j] - centers[i])
     along = np.abs(np.einsum("mi,mi->m", centers[k] - centers[i], circles.frames[row, 2]))
     along = np.minimum(along, np.abs(np.einsum("mi,mi->m", centers[k] - centers[j], circles.frames[row, 2])))
-    # A circle moves along its axis by (error) r / d: much, where the two spheres nearly coincide.
-    error = believed * (along * (radii[i] + radii[j]) / d + radii[k] + across + h + np.abs(z)) / h
+    # Where the two spheres nearly coincide, rounding moves their circle: along its axis by (error) r / d, and
+    # it tilts the axis by (error) / d.
+    error = along * (radii[i] + radii[j]) + (across + h + np.abs(z)) * (radii[i] + radii[j])
+    error = believed * (error / d + radii[k] + across + h + np.abs(z)) / h
     all_in, none_in = excess + across <= error, excess - across >= -error
     # A ball through the whole circle, within the error, covers nothing of it.
     none_in |= np.abs(excess) + across <= error
@@ -187,7 +191,7 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     row, across, excess, error, x, y = (v[some] for v in (row, across, excess, error, x, y))
     half = 2 * np.arctan2(np.sqrt(np.maximum(across - excess, 0)), np.sqrt(np.maximum(across + excess, 0)))
     sine = np.sqrt(np.maximum((across - excess) * (across + excess), 0))
-    shift = np.minimum(np.divide(error, sine, out=np.full_like(sine, np.inf), where=sine > 0), WORST)
+    shift = np.minimum(np.divide(error, sine, out=np.full_like(sine, np.inf), where=sine > 0), _WORST)
     return Covers(row, np.arctan2(y, x) - half, 2 * half, shift), covered
 
 
