@@ -39,7 +39,7 @@ html[data-theme="dark"] .psl :focus-visible, html[data-theme="dark"] .psl-stage:
 .psl-row { display: grid; grid-template-columns: 7.5rem 1fr auto; gap: 0.6rem; align-items: center; min-height: 2rem; }
 .psl-wide { grid-column: 1 / -1; }
 .psl-row input[type="range"] { width: 100%; min-width: 0; margin: 0; accent-color: #0072b2; height: 1.5rem; }
-.psl-row output { min-width: 3.2rem; text-align: right; font-variant-numeric: tabular-nums; }
+.psl-row output { min-width: 4.6rem; text-align: right; font-variant-numeric: tabular-nums; }
 .psl-row input[type="number"] { width: 5.6rem; }
 .psl input[type="number"], .psl select, .psl button { font: inherit; color: inherit; background: transparent;
   border: 1px solid color-mix(in srgb, currentColor 55%, transparent); border-radius: 4px; padding: 0.15rem 0.45rem; }
@@ -150,15 +150,20 @@ class Scene {
     this.facets = new Uint32Array(0);
     this.owners = new Int32Array(0);
     if (!s) return;
-    const n = this.points.length / 3, seen = new Map(), facets = [], owners = [];
+    const n = this.points.length / 3, seen = new Map(), facets = [], owners = [], f = [0, 0, 0];
     const others = N === 2 ? [[1, 2], [2, 0], [0, 1]] : [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
     for (let t = 0; t < s.length / M; t++) {
       for (let i = 0; i < M; i++) {
-        const f = others[i].map((k) => s[M * t + k]);
-        const key = [...f].sort((a, b) => a - b).reduce((sum, v) => sum * n + v, 0);
+        for (let k = 0; k < N; k++) f[k] = s[M * t + others[i][k]];
+        const a = Math.min(f[0], f[1]), b = Math.max(f[0], f[1]), c = f[2];
+        const key = N === 2 ? a * n + b : c < a ? (c * n + a) * n + b : c < b ? (a * n + c) * n + b : (a * n + b) * n + c;
         const found = seen.get(key);
         if (found !== undefined) owners[2 * found + 1] = t;
-        else { seen.set(key, facets.length / N); facets.push(...f); owners.push(t, -1); }
+        else {
+          seen.set(key, facets.length / N);
+          for (let k = 0; k < N; k++) facets.push(f[k]);
+          owners.push(t, -1);
+        }
       }
     }
     this.facets = Uint32Array.from(facets);
@@ -594,7 +599,12 @@ class Camera {
 
 // ---------------------------------------------------------------- the viewer
 
-let serial = 0;
+/** A name that no other element of the page has: in JupyterLab each viewer brings its own copy of this module. */
+function ownName() {
+  const key = Symbol.for("polyskel_lite.viewer.count");
+  globalThis[key] = (globalThis[key] ?? 0) + 1;
+  return `psl-${globalThis[key]}`;
+}
 
 function make(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
@@ -616,7 +626,7 @@ class Viewer {
     Object.assign(this, { model, element, scenes });
     this.header = model.get("scene");
     this.dimension = this.header.dimension;
-    this.id = `psl-${++serial}`;
+    this.id = ownName();
     this.camera = new Camera(this.dimension, this.header.low, this.header.high, this.header.view);
     this.frames = 0;
     this.cost = []; // milliseconds of the last picture of each level
@@ -718,7 +728,8 @@ class Viewer {
     const percent = { shown: (v) => `${Math.round(100 * v)} %`, value: (v) => v / 100 };
     if (header.shape) {
       if (header.filters) {
-        const input = this.slider("simplified", "simplified", "Simplify shape", share, percent);
+        const ends = { ...percent, shown: (v) => (v <= 0 ? "whole" : v >= 1 ? "simplified" : percent.shown(v)) };
+        const input = this.slider("simplified", "simplified", "Simplify shape", share, ends);
         this.refreshers.push(() => { input.value = String(Math.round(100 * this.get("simplified"))); });
       }
       const input = this.slider("opacity", "opacity", "Shape opacity", share, percent);
@@ -894,10 +905,12 @@ class Viewer {
 
   /** The best of LEVELS that takes 40 ms; at rest a better one may take longer. */
   level() {
-    const { cost } = this, large = this.counted.polygons > 12000;
+    const { cost } = this;
     if (this.resting) return cost[0] > 500 ? 1 : 0;
-    for (let k = 0; k < LEVELS.length; k++) if (!(cost[k] > 40) && !(k === 0 && large && cost[0] === undefined)) return k;
-    return LEVELS.length - 1;
+    // Before anything is known, many polygons are tried at a coarse level first.
+    const untried = this.counted.polygons > 12000 ? (this.view.fast ? 1 : 2) : 0;
+    const fits = LEVELS.findIndex((_, k) => (cost[k] === undefined ? k >= untried : cost[k] <= 40));
+    return fits < 0 ? LEVELS.length - 1 : fits;
   }
 
   paint() {
