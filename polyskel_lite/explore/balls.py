@@ -16,7 +16,6 @@ from .explorer import Explorer
 #: Seven discs: a ring around a hole, a tail, and a small disc that others cover.
 CENTERS = ((0.0, 0.0), (1.3, 0.75), (2.6, 0.0), (2.2, -1.5), (0.6, -1.6), (4.1, 0.3), (0.65, 0.35))
 RADII = (1.0, 0.85, 1.0, 0.8, 1.0, 0.7, 0.35)
-STATEMENTS = ("corrected", "as printed")
 #: Two handles a ball are enough for that many.
 MOST = 16
 _NONE = np.empty((0, 2, 2))
@@ -84,60 +83,21 @@ def _voronoi_lines(points: np.ndarray, box: np.ndarray) -> np.ndarray:
     return np.concatenate([clip_segments(graph.segments(), box), ray_segments(graph, box)])
 
 
-def both_skeletons(Y: Polyball) -> dict[str, Skeleton]:
-    """The skeleton by the corrected statement and by the one as printed, by name.
+def skeleton_layer(skeleton: Skeleton) -> dict:
+    """The skeleton as a layer for `polyskel_lite.explore.Board`.
 
     Examples
     --------
-    >>> [len(skeleton.edges) for skeleton in both_skeletons(Polyball([(-0.5, 0), (0.5, 0)], [1, 1])).values()]
-    [1, 1]
+    >>> len(skeleton_layer(Polyball([(-0.5, 0), (0.5, 0)], [1, 1]).skeleton())["lines"])
+    1
     """
-    return {statement: Y.skeleton(statement=statement) for statement in STATEMENTS}
-
-
-def skeleton_layers(skeletons: dict[str, Skeleton], statement: str = "corrected") -> dict[str, dict]:
-    """The exact skeleton of a polyball, for `polyskel_lite.explore.Board`.
-
-    Parameters
-    ----------
-    skeletons : dict
-        See `both_skeletons`.
-    statement : "corrected" or "as printed"
-        Which reading of theorems 3 and 4; the other one is drawn in red where they differ.
-
-    Examples
-    --------
-    >>> layers = skeleton_layers(both_skeletons(Polyball([(-0.5, 0), (0.5, 0)], [1, 1])))
-    >>> len(layers["skeleton"]["lines"]), len(layers["difference"]["lines"])
-    (1, 0)
-    """
-    skeleton = skeletons[statement]
-    lines, others = (skeletons[name].segments() for name in (statement, *(set(STATEMENTS) - {statement})))
     return {
-        "skeleton": {
-            "kind": "sk2",
-            "lines": lines,
-            "points": skeleton.vertices,
-            "width": 1.4,
-            "label": f"skeleton, {statement}",
-        },
-        "difference": {
-            "kind": "sk0",
-            "lines": _not_in(others, lines),
-            "width": 1.6,
-            "label": "only with the other statement",
-        },
+        "kind": "sk2",
+        "lines": skeleton.segments(),
+        "points": skeleton.vertices,
+        "width": 1.4,
+        "label": "skeleton of the union",
     }
-
-
-def _not_in(segments: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """The segments that are not among others, to rounding."""
-    known = {_key(segment) for segment in others}
-    return np.array([s for s in segments if _key(s) not in known]).reshape(-1, 2, 2)
-
-
-def _key(segment: np.ndarray) -> tuple:
-    return tuple(sorted(map(tuple, segment.round(9).tolist())))
 
 
 def ball_numbers(Y: Polyball, skeleton: Skeleton) -> dict[str, object]:
@@ -195,13 +155,13 @@ class Balls(Explorer):
         radius = ipywidgets.FloatSlider(
             Y.radii[0], min=0.02 * room, max=3 * room, step=0.01 * room, description="its radius"
         )
-        statement = ipywidgets.Dropdown(options=STATEMENTS, description="statement")
+        graph = ipywidgets.Checkbox(True, description="Voronoi graph of the singular points", indent=False)
         add = ipywidgets.Button(description="add a ball", tooltip="Add a ball in the middle of the board")
         remove = ipywidgets.Button(description="remove this ball", tooltip="Remove the chosen ball")
         add.on_click(lambda _: self.add())
         remove.on_click(lambda _: self.remove(self.controls["ball"].value))
         self._shown = (0, float(Y.radii[0]))
-        controls = {"ball": chosen, "radius": radius, "statement": statement, "add": add, "remove": remove}
+        controls = {"ball": chosen, "radius": radius, "voronoi": graph, "add": add, "remove": remove}
         super().__init__(board, controls, LOOK_FOR)
 
     @property
@@ -256,20 +216,15 @@ class Balls(Explorer):
         spokes = self._placed.reshape(-1, 2, 2)
         board.draw("spokes", kind="balls", lines=spokes, width=0.7, order=1.7)
         for name, layer in boundary_layers(Y, board.box).items():
-            board.draw(name, **layer)
+            board.draw(name, **layer, visible=name != "voronoi" or self.controls["voronoi"].value)
         try:
-            skeletons = both_skeletons(Y)
+            skeleton = Y.skeleton()
         except PolyskelError:
-            for name in ("skeleton", "difference"):
-                board.draw(name, kind="sk2")
+            board.draw("skeleton", kind="sk2")
             self.numbers = {}
             raise  # its sentence is shown under the board
-        layers = skeleton_layers(skeletons, self.controls["statement"].value)
-        for name, layer in layers.items():
-            board.draw(name, **layer, visible=name == "skeleton" or len(layer["lines"]) > 0)
-        agree = not len(layers["difference"]["lines"])
-        remark = "The two statements agree:" if agree else "The two statements differ:"
-        self.tell(remark, **ball_numbers(Y, skeletons["corrected"]))
+        board.draw("skeleton", **skeleton_layer(skeleton))
+        self.tell(**ball_numbers(Y, skeleton))
 
     def _take_over(self) -> None:
         """Read the handle that was dragged, or the slider that was moved."""
@@ -310,6 +265,8 @@ def _ball_names(count: int) -> list[tuple[str, int]]:
 
 def balls(polyball: Polyball | None = None) -> Balls:
     """Explore the union of balls that you add, move and grow, and its exact skeleton (appendix A).
+
+    In the plane the theorem as printed gives the same skeleton; it is in space that it fails.
 
     Parameters
     ----------
