@@ -6,8 +6,11 @@ patches of the spheres that are left on the boundary (Connolly 1983). Here the p
 reasons. Inclusion-exclusion needs a dual complex without a single wrong simplex, and the formula for four
 balls is at its worst for flat quadruples, which cospherical points make in numbers. And the usual formula for
 a patch, Gauss-Bonnet, needs the Euler number of the patch, so that one lost arc makes an error of a whole
-turn. Green's theorem on the sphere needs none of this: it is a sum over arcs, right up to whole spheres, and
-an arc that rounding has lost or shortened costs no more than its own length.
+turn. Green's theorem on the sphere needs none of this: it is a sum over arcs, right up to whole spheres.
+
+The arcs are found sphere by sphere from its own caps, not taken from the boundary that two spheres share:
+with balls that nearly coincide nobody can say where their common circle is, and an arc on one sphere only
+would ruin the sum. Sphere by sphere, what one of the two balls wrongly loses is what the other one gains.
 
 With A the area of a patch, n its normals, and c, r its ball, the divergence theorem gives the volume of the
 union as the sum of (r A + c · ∫n) / 3 over all patches, and Stokes' theorem gives ∫n = ½ ∮ p × dp from the
@@ -26,11 +29,13 @@ from __future__ import annotations
 import numpy as np
 
 from ._ball_pairs import lengths
-from ._caps import Caps, caps, circle_offset
+from ._caps import Caps, caps
+from .discs import Arcs, Covers, uncovered
 from .power import PowerTriangulation
 from .spheres import SphereBoundary, sphere_boundary
 
 _WHOLE = 4 * np.pi
+_TOUCH = 1e-12  # circles this near to each other, on the unit sphere, touch or are the same
 _PIECES = 4  # so that no piece of an arc turns by more than a right angle
 _CLOSE = 0.1  # patches and covered parts up to this share of the sphere are told apart by looking at points
 # Directions all around, from which each sphere takes one that is far from the ends of its arcs.
@@ -59,9 +64,10 @@ def surface_area(
 
     Notes
     -----
-    Exact to rounding, about 1e-15 r² for each ball, as long as the arcs are. Where many spheres pass through
-    one point, or nearly coincide, rounding decides which arcs are found; the error is then at most about r
-    times the length of the arcs in doubt (`Polyball` says how much that is).
+    Exact to rounding, about 1e-15 r² for each ball in general position. Circles closer than 1e-12 r to
+    touching or to each other count as doing so, which may cost 1e-12 r²; of two balls at a distance d
+    so small that the plane between them is known only to rounding / d, the sum is exact, not the share
+    of each.
 
     Examples
     --------
@@ -146,26 +152,21 @@ def patch_areas(
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
     >>> power = power_triangulation(centers, radii)
     >>> areas, normals = patch_areas(centers, radii, power, sphere_boundary(centers, radii, power))
-    >>> (areas / np.pi).round(12).tolist(), (normals / np.pi).round(12).tolist()
-    ([3.0, 3.0], [[-0.75, 0.0, 0.0], [0.75, 0.0, 0.0]])
+    >>> (areas / np.pi).round(12).tolist(), (normals[:, 0] / np.pi).round(12).tolist()
+    ([3.0, 3.0], [-0.75, 0.75])
     """
     count = len(radii)
-    row, start, end = boundary.arcs
-    circles = boundary.circles
-    i, j = circles.pairs[row].T
-    d = lengths(centers[j] - centers[i])
-    ball = np.concatenate([i, j]).astype(np.intp)
-    # The patch of the second ball is on the left of its arcs, that of the first one on the right.
-    sign = np.repeat([-1.0, 1.0], len(row))
-    offset = np.concatenate([circle_offset(d, radii[i], radii[j]), -circle_offset(d, radii[j], radii[i])])
-    row, start, end = np.tile(row, 2), np.tile(start, 2), np.tile(end, 2)
-    x, y, axis = (circles.frames[row, c] for c in range(3))
-    ring = circles.radii[row]
+    covered = caps(centers, radii, power)
+    row, start, end = _arcs(covered)
+    ball = _balls(covered)[row]
+    x, y, axis = (frame[row] for frame in _frames(covered.axes))
+    h = covered.heights[row]
+    s = np.sqrt(np.maximum(1 - h**2, 0))
     swing = (np.sin(end) - np.sin(start))[:, None] * x - (np.cos(end) - np.cos(start))[:, None] * y
-    normal = (ring**2 * (end - start))[:, None] * axis - (offset * ring)[:, None] * swing
-    normals = _sums(ball, sign[:, None] * normal / 2, count)
+    # Arcs run around caps; the patch is on their right.
+    normal = (h * s)[:, None] * swing - (s**2 * (end - start))[:, None] * axis
+    normals = np.stack([np.bincount(ball, column, count) for column in normal.T], axis=1)
 
-    h, s = offset / radii[ball], ring / radii[ball]
     angle = start + np.linspace(0, 1, _PIECES + 1)[:, None] * (end - start)
     places = np.cos(angle)[..., None] * x + np.sin(angle)[..., None] * y
     places = h[:, None] * axis + s[:, None] * places
@@ -173,20 +174,64 @@ def patch_areas(
     a, b = places[:-1], places[1:]
     near = np.where(h < 0, -1.0, 1.0)
     # Between an arc and its chords, then between its chords and the pole; both up to whole spheres.
-    slices = near * (end - start) * s**2 / (1 + np.abs(h)) - _triangles(near[:, None] * axis, a, b).sum(
-        axis=0
-    )
-    turned = sign * (slices + _triangles(_POLES[pole[ball]], a, b).sum(axis=0))
-    share = np.bincount(ball, turned, count) % _WHOLE
-
-    share[np.bincount(ball, minlength=count) == 0] = _WHOLE
-    # An arc known too badly may turn almost nothing into almost all: look at some points.
-    free = _free_share(caps(centers, radii, power))
+    sectors = near * (end - start) * s**2 / (1 + np.abs(h))
+    slices = sectors - _triangles(near[:, None] * axis, a, b).sum(axis=0)
+    turned = slices + _triangles(_POLES[pole[ball]], a, b).sum(axis=0)
+    share = -np.bincount(ball, turned, count) % _WHOLE
+    # Rounding may turn almost nothing into almost all: look at some points.
+    free = _free_share(covered)
     share[(free < 0.5) & (share > (1 - _CLOSE) * _WHOLE)] -= _WHOLE
     share[(free > 0.5) & (share < _CLOSE * _WHOLE)] += _WHOLE
     share = np.clip(share, 0, _WHOLE)
-    share[~boundary.exposed] = 0
-    return share * radii**2, normals
+    share[(np.diff(covered.first) == 0) & ~boundary.exposed] = 0
+    return share * radii**2, normals * (radii**2 / 2)[:, None]
+
+
+def _balls(covered: Caps) -> np.ndarray:
+    """The sphere of each cap."""
+    return np.repeat(np.arange(len(covered.first) - 1), np.diff(covered.first))
+
+
+def _frames(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Two unit vectors across each axis, and the axis."""
+    x = np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)])
+    x /= lengths(x)[:, None]
+    return x, np.cross(axes, x), axes
+
+
+def _arcs(covered: Caps) -> Arcs:
+    """The arcs of the edge of each cap that no other cap of its sphere covers.
+
+    Every sphere decides for itself, from its own caps. So the arcs around a patch follow each other, and
+    neither spheres that nearly coincide nor many that pass through one point tear them apart.
+    """
+    degree = np.diff(covered.first)
+    ball = _balls(covered)
+    row = np.repeat(np.arange(len(ball)), degree[ball])
+    begin = np.cumsum(degree[ball]) - degree[ball]
+    other = np.arange(len(row)) - begin[row] + covered.first[ball[row]]
+    row, other = row[row != other], other[row != other]
+    x, y, axis = _frames(covered.axes)
+    s = np.sqrt(np.maximum(1 - covered.heights**2, 0))
+    to = covered.axes[other]
+    u, v, c = ((frame[row] * to).sum(axis=1) for frame in (x, y, axis))
+    h, k = covered.heights[row], covered.heights[other]
+    across, excess = s[row] * np.hypot(u, v), k - h * c
+    # Circles that touch within rounding must touch as seen from both, hence the size of the other one.
+    touch = _TOUCH * s[other]
+    outside, inside = excess >= across - touch, excess <= touch - across
+    side = np.where(c < 0, -1.0, 1.0)
+    same = (np.abs(to - side[:, None] * axis[row]).max(axis=1) <= _TOUCH) & (np.abs(k - side * h) <= _TOUCH)
+    # Of equal caps the first one has the edge; caps that share an edge from both sides leave nothing.
+    outside = np.where(same, (side < 0) | (row < other), outside & ~inside)
+    inside = np.where(same, ~outside, inside)
+    hidden = np.zeros(len(ball), dtype=bool)
+    hidden[row[inside]] = True
+    some = ~(inside | outside) & ~hidden[row]
+    row, across, excess, u, v = row[some], across[some], excess[some], u[some], v[some]
+    half = 2 * np.arctan2(np.sqrt(across - excess), np.sqrt(across + excess))
+    covers = Covers(row, np.arctan2(v, u) - half, 2 * half, np.zeros(len(row)))
+    return uncovered(covers, np.flatnonzero(~hidden))[0]
 
 
 def _free_share(covered: Caps) -> np.ndarray:
@@ -201,17 +246,15 @@ def _free_share(covered: Caps) -> np.ndarray:
 
 def _far_poles(ball, places, count) -> np.ndarray:
     """For each ball the pole whose opposite point is farthest from all ends of arcs."""
-    nearest = np.full((count, len(_POLES)), np.inf)
-    for ends in places:
-        np.minimum.at(nearest, ball, ends @ _POLES.T)
-    return nearest.argmax(axis=1)
+    chosen = np.zeros(count, dtype=np.int64)
+    if len(ball):
+        first = np.flatnonzero(np.diff(ball, prepend=-1))
+        away = np.min([(1 + ends @ _POLES.T) for ends in places], axis=0)
+        chosen[ball[first]] = np.minimum.reduceat(away, first).argmax(axis=1)
+    return chosen
 
 
 def _triangles(pole, a, b) -> np.ndarray:
     """Signed areas of the triangles (pole, a, b) of the unit sphere, (pieces, m)."""
     volume = (pole * np.cross(a, b)).sum(axis=-1)
     return 2 * np.arctan2(volume, 1 + (pole * (a + b)).sum(axis=-1) + (a * b).sum(axis=-1))
-
-
-def _sums(ball, vectors, count) -> np.ndarray:
-    return np.stack([np.bincount(ball, column, count) for column in vectors.T], axis=1)

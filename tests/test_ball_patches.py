@@ -14,6 +14,7 @@ from medial_oracle import FAMILIES, Union, random_polyball
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
+import polyskel_lite as psl
 from polyskel_lite._ball_distance import distance_to_boundary
 from polyskel_lite._caps import caps
 from polyskel_lite.ball_patches import _fan, _icosphere, patches
@@ -159,8 +160,8 @@ def test_three_balls_by_symmetry():
     Y = Balls(centers, np.ones(3))
     areas, _ = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
     assert areas == pytest.approx(areas[[0, 0, 0]], rel=1e-13)
-    # The common part of two caps of 60°, 60° apart, is two equal segments; one is a sector of its cap less a
-    # triangle of the axis and both ends, which has the angle `apex` at the axis and `base` at the ends.
+    # The common part of two caps of 60°, 60° apart, is two equal segments; one is a sector of its cap less
+    # a triangle of the axis and both ends, which has the angle `apex` at the axis and `base` at the ends.
     half = np.arccos(np.tan(PI / 6) / np.tan(PI / 3))
     end = np.arcsin(np.sin(half) * np.sin(PI / 3))  # half the distance of the two ends
     apex = 2 * np.arcsin(np.sin(end) / np.sin(PI / 3))
@@ -255,7 +256,7 @@ def test_mesh_converges_to_the_exact_measures(number):
 
 
 def test_degenerate_positions_measure_like_their_neighbours():
-    """Many spheres through one point, circles that touch circles: moving everything by 1e-9 changes as little."""
+    """Many spheres through one point, circles that touch: moving everything by 1e-9 changes as little."""
     rng = np.random.default_rng(3)
     for number in of_all_families(20):
         Y = family_member(number)
@@ -266,6 +267,20 @@ def test_degenerate_positions_measure_like_their_neighbours():
         )
         assert moved.volume() == pytest.approx(Y.volume(), rel=2e-8), number
         assert moved.area() == pytest.approx(Y.area(), rel=2e-8), number
+
+
+def test_delaunay_balls_known_badly():
+    """Balls through five cospherical samples come in copies, which rounding turns into close balls."""
+    shape = psl.datasets.load("metacarpal")
+    Y = psl.delaunay_balls(shape)
+    rng = np.random.default_rng(0)
+    reach = Y.radii[:, None]
+    moved = Balls(
+        Y.centers + 1e-9 * reach * rng.standard_normal(Y.centers.shape),
+        Y.radii * (1 + 1e-9 * rng.standard_normal(len(Y))),
+    )
+    assert moved.volume() == pytest.approx(Y.volume(), rel=1e-6)
+    assert moved.area() == pytest.approx(Y.area(), rel=1e-6)
 
 
 def test_measures_add_up_over_components():
@@ -404,7 +419,7 @@ def test_points_of_a_sphere_in_no_cap_are_on_the_boundary(number):
 
 
 def queries_for(Y, rng, count=200):
-    """Anywhere, and where it is hard: centres, axes of circles, singular points, arcs, next to all of these."""
+    """Anywhere, and where it is hard: centres, axes of circles, singular points, arcs, next to these."""
     low, high = Y.box()
     circles = Y.boundary.circles
     row, start, end = Y.boundary.arcs
