@@ -113,9 +113,9 @@ class Scene {
     this.corners = get("corners") ?? new Uint16Array(0);
     this.rays = get("rays");
     this.points = header.points ? positions(buffer, header.points, dimension) : new Float32Array(0);
-    this.samples = header.samples ? Uint32Array.from(get("samples")) : null;
-    this.simplices = get("simplices");
     const index = (name) => (header[name] ? Uint32Array.from(get(name)) : null);
+    this.samples = index("samples");
+    this.simplices = index("simplices");
     this.surface = index("surface"); // of a polyball: its boundary and, in the plane, triangles that fill its discs
     this.fill = index("fill");
     this.shaped = Boolean(this.simplices || this.surface);
@@ -276,6 +276,23 @@ class Filter {
     const { edges, count } = this.scene, joined = new Uint8Array(count), E = this.kept(this.edgeSorted, cut);
     for (let k = 0; k < E; k++) { const e = this.edgeOrder[k]; joined[edges[2 * e]] = joined[edges[2 * e + 1]] = 1; }
     return Uint32Array.from({ length: count }, (_, v) => v).filter((v) => this.rank[v] >= cut && !joined[v]);
+  }
+
+  keptVertices(cut) {
+    return Uint32Array.from({ length: this.scene.count }, (_, v) => v).filter((v) => this.rank[v] >= cut);
+  }
+
+  /** The ends of all edges, the longest-lived first. */
+  sides() {
+    const { edges } = this.scene, out = new Uint32Array(edges.length);
+    this.edgeOrder.forEach((e, i) => { out[2 * i] = edges[2 * e]; out[2 * i + 1] = edges[2 * e + 1]; });
+    return out;
+  }
+
+  /** In the plane, the triangles of the simplified shape. */
+  region(cut) {
+    if (this.scene.fill) return this.scene.fill;
+    return this.scene.simplices.filter((_, i) => this.rank[Math.floor(i / 3)] >= cut);
   }
 
   /** Facets of the boundary of the simplified shape, flat, turned outward. */
@@ -597,6 +614,225 @@ class Camera {
   }
 }
 
+/** One picture: everything drawn in its order, with what all steps share. */
+class Picture {
+  constructor(viewer, width, height, ratio, level) {
+    const { view, buffers, camera, header, cut, shapeCut, counted, filter, sceneNow: scene } = viewer;
+    const gl = view.gl, colors = header.colors, color = viewer.get("color");
+    Object.assign(this, { viewer, view, gl, buffers, header, colors, color, cut, shapeCut, counted, filter, scene, ratio });
+    this.solid = viewer.dimension === 3;
+    this.coarse = LEVELS[level].scale < 1;
+    this.fine = LEVELS[level].samples > 1;
+    this.opacity = viewer.get("opacity");
+    this.clip = this.solid && scene.header.vertices.far ? " CLIP" : "";
+    this.grow = ratio * clamp(camera.zoom ** 0.35, 0.8, 2.2); // of lines and dots
+    this.skeleton = color === "none" ? this.paint(colors.skeleton) : {};
+    // Buffers are made anew when these change.
+    this.label = `${scene.label}|${filter.label}`;
+    this.stamp = `${this.label}|${color}`;
+    const reach = camera.half.map((half) => half + 0.3 * camera.radius);
+    this.base = {
+      ...camera.matrices(width / height, viewer.outline(), 1 - (BAR * ratio) / height),
+      ...camera.lights(),
+      low: camera.center.map((c, k) => c - reach[k]),
+      high: camera.center.map((c, k) => c + reach[k]),
+      size: [width, height], plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0, hard: this.solid && !this.fine ? 1 : 0,
+    };
+    gl.viewport(0, 0, width, height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(0, 0, width, height);
+    gl.clearColor(1, 1, 1, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.depthFunc(gl.LEQUAL);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.bindVertexArray(view.blank);
+    this.release();
+  }
+
+  draw() {
+    const { gl, solid, viewer, scene, shapeCut, colors, opacity } = this;
+    const shown = (name) => viewer.get(name);
+    gl.disable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    if (!solid && scene.shaped) this.region();
+    if (solid) gl.enable(gl.DEPTH_TEST);
+    if (solid && scene.sizes.length) {
+      if (shown("polygons")) this.polygons();
+      if (shown("edges") && !this.coarse) this.sides(shown("polygons") ? 0.3 * clamp(15000 / this.counted.edges, 0.3, 1) : 0.75);
+    }
+    // Soft rims of wires and dots would hide what lies behind them in space: samples of a pixel instead, or hard rims.
+    if (solid) gl.disable(gl.BLEND);
+    if (solid && this.fine) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    if (shown("edges")) this.wires();
+    if (shown("vertices")) this.vertices("dots", () => this.filter.keptVertices(this.cut), this.paint(colors.vertices), solid ? 4 : 4.5);
+    else if (shown("edges") && this.counted.lone) this.vertices("lone", () => this.filter.lone(this.cut), this.skeleton, 7);
+    if (shown("samples") && scene.samples) this.samples();
+    gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+    gl.enable(gl.BLEND);
+    if (solid && scene.shaped && opacity > 0.004) {
+      if (shapeCut) this.glass("glass-all", 0, colors.ghost, opacity * 0.35); // the whole shape, a ghost around it
+      this.glass("glass", shapeCut, colors.glass, opacity);
+    }
+  }
+
+  paint(hex) { return { plain: [...rgb(hex), 1] }; }
+
+  use(program, uniforms) { this.view.use(program + this.clip, { ...this.base, ...uniforms }); }
+
+  /** Three numbers a vertex: floats, or bytes that stand for 0 to 1. */
+  attribute(place, bytes, stride = 0, offset = 0, divisor = 0) {
+    const gl = this.gl;
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, 3, bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, bytes, stride, offset);
+    gl.vertexAttribDivisor(place, divisor);
+  }
+
+  release() {
+    for (let k = 0; k < 4; k++) { this.gl.disableVertexAttribArray(k); this.gl.vertexAttribDivisor(k, 0); }
+  }
+
+  indices(name, stamp, make) { return this.buffers.get(name, stamp, make, this.gl.ELEMENT_ARRAY_BUFFER).length; }
+
+  elements(mode, count) { this.gl.drawElements(mode, count, this.gl.UNSIGNED_INT, 0); }
+
+  bindSkeleton() {
+    this.buffers.get("vertices", this.scene.label, () => this.scene.vertices);
+    this.attribute(0, false);
+    this.buffers.get("values", this.stamp, () => this.values());
+    this.attribute(1, true, 4);
+  }
+
+  bindPoints() {
+    this.buffers.get("points", this.scene.label, () => this.scene.points);
+    this.attribute(0, false);
+    this.gl.disableVertexAttribArray(1);
+  }
+
+  /** The colour of each vertex, four bytes each (the fourth only fills up). */
+  values() {
+    const { scene, filter, color } = this, out = new Uint8Array(4 * scene.count), ramp = this.header.ramp.map(rgb);
+    const { largest, power } = filter.header, { levels, rank } = filter, last = ramp.length - 1;
+    for (let v = 0; v < scene.count; v++) {
+      const level = rank[v] < levels.length ? levels[rank[v]] : Infinity;
+      const x = color === "level" ? clamp(Math.max(level, 0) / largest, 0, 1) ** (1 / power) : scene.radius[v] / 65535;
+      const k = Math.min(Math.floor(x * last), last - 1), part = x * last - k;
+      for (let c = 0; c < 3; c++) out[4 * v + c] = Math.round(255 * (ramp[k][c] * (1 - part) + ramp[k + 1][c] * part));
+    }
+    return out;
+  }
+
+  /** In the plane: the filled shape and its outline; where it is simplified, the whole shape paler under it. */
+  region() {
+    const { gl, colors, shapeCut, opacity } = this;
+    this.bindPoints();
+    // Discs of a polyball overlap; equal depths let each pixel be filled once.
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LESS);
+    const fill = (name, cut, hex, alpha) => {
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+      const count = this.indices(name, `${this.label}|${cut}`, () => this.filter.region(cut));
+      this.use("faces", { ...this.paint(hex), alpha });
+      this.elements(gl.TRIANGLES, count);
+    };
+    if (shapeCut) fill("region-all", 0, colors.removed, opacity * 0.6);
+    fill("region", shapeCut, colors.fill, opacity);
+    gl.disable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    const line = (name, cut, hex, width) => this.segments(name, `${this.label}|${cut}`, () => this.outlineEnds(cut),
+      { ...this.paint(hex), width: width * this.ratio, alpha: Math.min(1, 2 * opacity) });
+    if (shapeCut) line("outline-all", 0, colors.ghost, 1);
+    line("outline", shapeCut, colors.shape, shapeCut ? 1.6 : 1.2);
+  }
+
+  polygons() {
+    const { index, upTo } = this.filter.triangles();
+    this.gl.disable(this.gl.BLEND);
+    this.bindSkeleton();
+    this.indices("fans", this.label, () => index);
+    this.use("faces", { ...this.skeleton, lit: 1 });
+    this.elements(this.gl.TRIANGLES, upTo[this.counted.polygons]);
+    this.gl.enable(this.gl.BLEND);
+  }
+
+  /** All edges as thin dark lines, which tell the polygons apart. */
+  sides(alpha) {
+    this.bindSkeleton();
+    this.gl.disableVertexAttribArray(1);
+    this.indices("sides", this.label, () => this.filter.sides());
+    this.use("faces", { plain: [0.05, 0.07, 0.12, 1], alpha });
+    this.gl.depthMask(false);
+    this.elements(this.gl.LINES, 2 * this.counted.edges);
+    this.gl.depthMask(true);
+  }
+
+  /** Edges on no polygon, and rays. */
+  wires() {
+    const { solid, cut, label, scene } = this, width = (solid ? 4 : 2.4) * this.grow;
+    const look = { width, tube: solid ? 1 : 0, nearer: solid ? 0.001 : 0 };
+    this.segments("wires", `${this.stamp}|${cut}`, () => this.wireEnds(), { ...look, ...this.skeleton });
+    if (scene.rays) this.segments("rays", label, () => scene.rays, { ...look, ...this.paint(this.colors.skeleton) });
+  }
+
+  wireEnds() {
+    const { scene } = this, rows = this.filter.wires(this.cut), p = scene.vertices, own = this.values();
+    const out = new Float32Array(8 * rows.length), bytes = new Uint8Array(out.buffer);
+    rows.forEach((e, i) => [0, 1].forEach((side) => {
+      const v = scene.edges[2 * e + side], at = 8 * i + 4 * side;
+      for (let k = 0; k < 3; k++) out[at + k] = p[3 * v + k];
+      for (let k = 0; k < 4; k++) bytes[4 * at + 12 + k] = own[4 * v + k];
+    }));
+    return out;
+  }
+
+  outlineEnds(cut) {
+    const flat = this.filter.boundary(cut), out = new Float32Array(4 * flat.length), p = this.scene.points;
+    flat.forEach((v, i) => { for (let k = 0; k < 3; k++) out[4 * i + k] = p[3 * v + k]; });
+    return out;
+  }
+
+  /** Segments as instances: of each end three floats and four bytes of colour. */
+  segments(name, stamp, ends, uniforms) {
+    this.release();
+    const count = this.buffers.get(name, stamp, ends).length / 8;
+    if (!count) return;
+    this.use("lines", uniforms);
+    [0, 12, 16, 28].forEach((offset, place) => this.attribute(place, place % 2 === 1, 32, offset, 1));
+    this.gl.drawArraysInstanced(this.gl.TRIANGLE_STRIP, 0, 4, count);
+    this.release();
+  }
+
+  vertices(name, rows, look, width) {
+    this.bindSkeleton();
+    const count = this.indices(name, `${this.label}|${this.cut}`, rows);
+    this.use("dots", { ...look, width: width * this.grow, nearer: this.solid ? 0.002 : 0 });
+    this.elements(this.gl.POINTS, count);
+  }
+
+  samples() {
+    this.bindPoints();
+    const count = this.indices("samples", this.scene.label, () => this.scene.samples);
+    const width = (this.solid ? 3.2 : 3.6) * this.grow;
+    this.use("dots", { ...this.paint(this.colors.samples), width, nearer: this.solid ? 0.002 : 0 });
+    this.elements(this.gl.POINTS, count);
+  }
+
+  /** In space: the shape as glass, what faces away from the reader first. */
+  glass(name, cut, hex, alpha) {
+    const gl = this.gl;
+    this.bindPoints();
+    const count = this.indices(name, `${this.label}|${cut}`, () => this.filter.boundary(cut));
+    this.use("faces", { ...this.paint(hex), alpha, lit: 2 });
+    gl.depthMask(alpha > 0.97);
+    gl.enable(gl.CULL_FACE);
+    for (const hidden of this.coarse ? [gl.BACK] : [gl.FRONT, gl.BACK]) {
+      gl.cullFace(hidden);
+      this.elements(gl.TRIANGLES, count);
+    }
+    gl.disable(gl.CULL_FACE);
+    gl.depthMask(true);
+  }
+}
+
 // ---------------------------------------------------------------- the viewer
 
 /** A name that no other element of the page has: in JupyterLab each viewer brings its own copy of this module. */
@@ -617,8 +853,8 @@ function make(tag, attributes = {}, ...children) {
   return node;
 }
 
-const many = (n, word) => `${n.toLocaleString("en")} ${word}${n === 1 ? "" : word.endsWith("ch") ? "es" : "s"}`
-  .replace("vertexs", "vertices");
+const PLURALS = { vertex: "vertices", branch: "branches", cavity: "cavities" };
+const many = (n, word) => `${n.toLocaleString("en")} ${n === 1 ? word : PLURALS[word] ?? `${word}s`}`;
 const multiple = (t) => (t === -Infinity ? "none" : `${Number((t / PI).toFixed(3))} π`);
 
 class Viewer {
@@ -666,8 +902,8 @@ class Viewer {
     this.heard = make("p", { class: "psl-only-heard", role: "status", "aria-live": "polite" });
     this.controls = make("div", { class: "psl-controls" });
     const hint = make("p", { class: "psl-hint", id: `${id}-hint` },
-      solid ? "Drag to turn, Shift and drag to move; after a click the wheel zooms. Keys: arrows turn, Shift and arrows move, + and − zoom, Home resets."
-        : "Drag to move; after a click the wheel zooms. Keys: arrows move, + and − zoom, Home resets.");
+      `${solid ? "Drag to turn, Shift and drag to move" : "Drag to move"}; after a click the wheel zooms. `
+      + `Keys: arrows ${solid ? "turn, Shift and arrows move" : "move"}, + and − zoom, Home resets.`);
     this.rows();
     this.element.classList.add("psl");
     this.element.setAttribute("role", "group");
@@ -873,17 +1109,17 @@ class Viewer {
     this.draw();
   }
 
+  /** The line of numbers: seen at once, read aloud when the hand rests. */
   tell() {
-    const { vertices, edges, polygons, branches } = this.counted, { betti } = this.filter.header;
-    const threshold = this.get("threshold");
-    const parts = [many(vertices, "vertex"), many(edges, "edge"), ...(this.dimension === 3 ? [many(polygons, "polygon")] : []), many(branches, "branch")];
-    const head = !this.header.filters ? "" : threshold === -Infinity ? "Nothing removed: " : `Threshold ${multiple(threshold)}: `;
-    let tail = "";
+    const { betti } = this.filter.header, threshold = this.get("threshold"), filters = this.header.filters;
+    const kinds = { vertex: "vertices", edge: "edges", ...(this.dimension === 3 && { polygon: "polygons" }), branch: "branches" };
+    const parts = Object.entries(kinds).map(([word, name]) => many(this.counted[name], word));
+    const head = !filters ? "" : threshold === -Infinity ? "Nothing removed: " : `Threshold ${multiple(threshold)}: `;
+    let text = `${head}${parts.join(", ")}.`;
     if (betti) {
-      const words = this.dimension === 2 ? ["piece", "loop"] : ["piece", "loop", "cavity"];
-      tail = ` Betti numbers ${betti.join(", ")}: ${betti.map((b, k) => many(b, words[k]).replace("cavitys", "cavities")).join(", ")}${this.header.filters ? ", whatever the threshold" : ""}.`;
+      const words = betti.map((b, k) => many(b, ["piece", "loop", "cavity"][k])).join(", ");
+      text += ` Betti numbers ${betti.join(", ")}: ${words}${filters ? ", whatever the threshold" : ""}.`;
     }
-    const text = `${head}${parts.join(", ")}.${tail}`;
     this.status.textContent = text;
     clearTimeout(this.telling);
     this.telling = setTimeout(() => { this.heard.textContent = text; }, 500);
@@ -926,7 +1162,7 @@ class Viewer {
     const w = Math.round(width * scale), h = Math.round(height * scale);
     view.resize(w, h);
     view.begin(samples > 1, w, h);
-    this.render(w, h, ratio * scale, level);
+    new Picture(this, w, h, ratio * scale, level).draw();
     view.end(samples > 1, w, h);
     const context = shown.getContext("2d", { willReadFrequently: !view.fast });
     context.drawImage(view.canvas, 0, view.canvas.height - h, w, h, 0, 0, width, height);
@@ -945,187 +1181,6 @@ class Viewer {
 
   restart() { this.buffers = null; this.draw(); }
 
-  /** The colour of each vertex, four bytes each (the fourth only fills up). */
-  values(scene, filter) {
-    const color = this.get("color"), out = new Uint8Array(4 * scene.count), ramp = this.header.ramp.map(rgb);
-    const { largest, power } = filter.header, { levels, rank } = filter, last = ramp.length - 1;
-    for (let v = 0; v < scene.count; v++) {
-      const level = rank[v] < levels.length ? levels[rank[v]] : Infinity;
-      const x = color === "level" ? clamp(Math.max(level, 0) / largest, 0, 1) ** (1 / power) : scene.radius[v] / 65535;
-      const k = Math.min(Math.floor(x * last), last - 1), part = x * last - k;
-      for (let c = 0; c < 3; c++) out[4 * v + c] = Math.round(255 * (ramp[k][c] * (1 - part) + ramp[k + 1][c] * part));
-    }
-    return out;
-  }
-
-  render(width, height, ratio, level) {
-    const { view, buffers, camera, header, cut, shapeCut, filter, sceneNow: scene } = this;
-    const gl = view.gl, solid = this.dimension === 3, colors = header.colors;
-    const fine = LEVELS[level].samples > 1;
-    const clip = solid && scene.header.vertices.far ? " CLIP" : "";
-    gl.viewport(0, 0, width, height);
-    gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(0, 0, width, height);
-    gl.clearColor(1, 1, 1, 1);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.depthFunc(gl.LEQUAL);
-    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    gl.bindVertexArray(view.blank);
-    for (let k = 0; k < 4; k++) { gl.disableVertexAttribArray(k); gl.vertexAttribDivisor(k, 0); }
-    const color = this.get("color"), opacity = this.get("opacity");
-    const wide = 4 * camera.radius, margin = 0.3 * camera.radius;
-    const base = {
-      ...camera.matrices(width / height, this.outline(), 1 - (BAR * ratio) / height), ...camera.lights(), size: [width, height],
-      low: solid ? camera.center.map((c, k) => c - camera.half[k] - margin) : camera.center.map((c) => c - 1e3 * wide),
-      high: solid ? camera.center.map((c, k) => c + camera.half[k] + margin) : camera.center.map((c) => c + 1e3 * wide),
-      plain: [0, 0, 0, 0], alpha: 1, lit: 0, tube: 0, nearer: 0, hard: solid && !fine ? 1 : 0,
-    };
-    const skeleton = color === "none" ? { plain: [...rgb(colors.skeleton), 1] } : {};
-    const grow = ratio * clamp(camera.zoom ** 0.35, 0.8, 2.2);
-    const label = `${scene.label}|${filter.label}`, stamp = `${label}|${color}`;
-    const attribute = (place, bytes, stride = 0, offset = 0, divisor = 0) => {
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, 3, bytes ? gl.UNSIGNED_BYTE : gl.FLOAT, bytes, stride, offset);
-      gl.vertexAttribDivisor(place, divisor);
-    };
-    let values = null;
-    const value = () => (values ??= this.values(scene, filter));
-    const bindVertices = () => {
-      buffers.get("vertices", scene.label, () => scene.vertices);
-      attribute(0, false);
-      buffers.get("values", stamp, value);
-      attribute(1, true, 4);
-    };
-    const bindPoints = () => {
-      buffers.get("points", scene.label, () => scene.points);
-      attribute(0, false);
-      gl.disableVertexAttribArray(1);
-    };
-    /** Segments as instances: of each end three floats and four bytes of colour. */
-    const segments = (name, key, ends, uniforms) => {
-      for (const k of [0, 1, 2, 3]) gl.disableVertexAttribArray(k);
-      const entry = buffers.get(name, key, ends);
-      if (!entry.length) return;
-      view.use(`lines${clip}`, { ...base, ...uniforms });
-      [0, 12, 16, 28].forEach((offset, place) => attribute(place, place % 2 === 1, 32, offset, 1));
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, entry.length / 8);
-      for (let k = 0; k < 4; k++) { gl.disableVertexAttribArray(k); gl.vertexAttribDivisor(k, 0); }
-    };
-    const facetEnds = (atCut) => () => {
-      const flat = filter.boundary(atCut), out = new Float32Array(4 * flat.length);
-      flat.forEach((v, i) => out.set([scene.points[3 * v], scene.points[3 * v + 1], scene.points[3 * v + 2], 0], 4 * i));
-      return out;
-    };
-    const wireEnds = () => {
-      const rows = filter.wires(cut), out = new Float32Array(8 * rows.length), p = scene.vertices;
-      const bytes = new Uint8Array(out.buffer), own = value();
-      rows.forEach((e, i) => [0, 1].forEach((side) => {
-        const v = scene.edges[2 * e + side], at = 8 * i + 4 * side;
-        out.set([p[3 * v], p[3 * v + 1], p[3 * v + 2]], at);
-        bytes.set(own.subarray(4 * v, 4 * v + 4), 4 * at + 12);
-      }));
-      return out;
-    };
-
-    // 1. In the plane, the filled shape lies under everything.
-    gl.disable(gl.DEPTH_TEST);
-    gl.enable(gl.BLEND);
-    if (!solid && scene.shaped) {
-      bindPoints();
-      // Discs of a polyball overlap; equal depths let each pixel be filled once.
-      gl.enable(gl.DEPTH_TEST);
-      gl.depthFunc(gl.LESS);
-      const fill = (name, atCut, hex, alpha) => {
-        gl.clear(gl.DEPTH_BUFFER_BIT);
-        const entry = buffers.get(name, `${label}|${atCut}`, () => this.region(scene, filter, atCut), gl.ELEMENT_ARRAY_BUFFER);
-        view.use(`faces${clip}`, { ...base, plain: [...rgb(hex), 1], alpha });
-        gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0);
-      };
-      if (shapeCut) fill("region-all", 0, colors.removed, opacity * 0.6);
-      fill("region", shapeCut, colors.fill, opacity);
-      gl.disable(gl.DEPTH_TEST);
-      gl.depthFunc(gl.LEQUAL);
-      gl.disableVertexAttribArray(0);
-      const line = (name, atCut, hex, width, alpha) => segments(name, `${label}|${atCut}`, facetEnds(atCut), {
-        plain: [...rgb(hex), 1], width: width * ratio, alpha: alpha * Math.min(1, 2 * opacity) });
-      if (shapeCut) line("outline-all", 0, colors.ghost, 1, 1);
-      line("outline", shapeCut, colors.shape, shapeCut ? 1.6 : 1.2, 1);
-    }
-
-    // 2. Polygons, and their sides as thin dark lines.
-    if (solid) { gl.enable(gl.DEPTH_TEST); gl.depthMask(true); }
-    if (solid && this.get("polygons") && scene.sizes.length) {
-      const { index, upTo } = filter.triangles();
-      gl.disable(gl.BLEND);
-      bindVertices();
-      buffers.get("fans", label, () => index, gl.ELEMENT_ARRAY_BUFFER);
-      view.use(`faces${clip}`, { ...base, ...skeleton, lit: 1 });
-      gl.drawElements(gl.TRIANGLES, upTo[this.counted.polygons], gl.UNSIGNED_INT, 0);
-    }
-    gl.enable(gl.BLEND);
-    if (solid && level < 2 && this.get("edges") && scene.sizes.length) {
-      bindVertices();
-      buffers.get("sides", label, () => this.allSides(scene, filter), gl.ELEMENT_ARRAY_BUFFER);
-      gl.disableVertexAttribArray(1);
-      gl.vertexAttrib3f(1, 0, 0, 0);
-      view.use(`faces${clip}`, { ...base, plain: [0.05, 0.07, 0.12, 1], alpha: this.get("polygons") ? 0.3 : 0.75, nearer: 0.0004 });
-      gl.depthMask(false);
-      gl.drawElements(gl.LINES, 2 * this.counted.edges, gl.UNSIGNED_INT, 0);
-      gl.depthMask(true);
-    }
-
-    // 3. Wires: edges on no polygon. In space their soft rims would hide what lies behind: samples, or none at all.
-    if (solid) {
-      gl.disable(gl.BLEND);
-      if (fine) gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-    }
-    if (this.get("edges")) {
-      const thick = (solid ? 4 : 2.4) * grow;
-      const key = `${stamp}|${cut}`;
-      segments("wires", key, wireEnds, { ...skeleton, width: thick, tube: solid ? 1 : 0, nearer: solid ? 0.001 : 0 });
-      if (scene.rays && cut === 0) segments("rays", label, () => scene.rays, { plain: [...rgb(colors.skeleton), 1], width: thick });
-    }
-    if (this.get("edges") && !this.get("vertices") && this.counted.lone) {
-      bindVertices();
-      const entry = buffers.get("lone", `${label}|${cut}`, () => filter.lone(cut), gl.ELEMENT_ARRAY_BUFFER);
-      view.use(`dots${clip}`, { ...base, ...skeleton, width: 7 * grow, nearer: solid ? 0.002 : 0 });
-      gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
-    }
-    if (this.get("vertices")) {
-      bindVertices();
-      const entry = buffers.get("dots", `${label}|${cut}`, () => this.keptVertices(scene, filter), gl.ELEMENT_ARRAY_BUFFER);
-      view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.vertices), 1], width: (solid ? 4 : 4.5) * grow, nearer: solid ? 0.002 : 0 });
-      gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
-    }
-    if (this.get("samples") && scene.samples) {
-      bindPoints();
-      gl.vertexAttrib3f(1, 0, 0, 0);
-      const entry = buffers.get("samples", scene.label, () => scene.samples, gl.ELEMENT_ARRAY_BUFFER);
-      view.use(`dots${clip}`, { ...base, plain: [...rgb(colors.samples), 1], width: (solid ? 3.2 : 3.6) * grow, nearer: solid ? 0.002 : 0 });
-      gl.drawElements(gl.POINTS, entry.length, gl.UNSIGNED_INT, 0);
-    }
-
-    gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-    gl.enable(gl.BLEND);
-
-    // 4. In space, the shape as glass: what faces away from the reader first. The whole shape is a ghost around it.
-    if (solid && scene.shaped && opacity > 0.004) {
-      bindPoints();
-      gl.vertexAttrib3f(1, 0, 0, 0);
-      gl.enable(gl.CULL_FACE);
-      const glass = (name, atCut, hex, alpha) => {
-        const entry = buffers.get(name, `${label}|${atCut}`, () => filter.boundary(atCut), gl.ELEMENT_ARRAY_BUFFER);
-        view.use(`faces${clip}`, { ...base, plain: [...rgb(hex), 1], alpha, lit: 2 });
-        gl.depthMask(alpha > 0.97);
-        for (const side of level < 2 ? [gl.FRONT, gl.BACK] : [gl.FRONT]) { gl.cullFace(side); gl.drawElements(gl.TRIANGLES, entry.length, gl.UNSIGNED_INT, 0); }
-      };
-      if (shapeCut) glass("glass-all", 0, colors.ghost, opacity * 0.35);
-      glass("glass", shapeCut, colors.glass, opacity);
-      gl.disable(gl.CULL_FACE);
-      gl.depthMask(true);
-    }
-  }
-
   /** The points that the first view must show: samples, or other points of the shape, or the skeleton in its box. */
   outline() {
     if (this.outlined) return this.outlined;
@@ -1139,25 +1194,6 @@ class Viewer {
       }
     }
     return (this.outlined = Float32Array.from(places));
-  }
-
-  region(scene, filter, cut) {
-    if (scene.fill) return scene.fill;
-    const out = [], s = scene.simplices;
-    for (let t = 0; t < s.length / 3; t++) if (filter.rank[t] >= cut) out.push(s[3 * t], s[3 * t + 1], s[3 * t + 2]);
-    return Uint32Array.from(out);
-  }
-
-  allSides(scene, filter) {
-    const out = new Uint32Array(scene.edges.length);
-    filter.edgeOrder.forEach((e, i) => { out[2 * i] = scene.edges[2 * e]; out[2 * i + 1] = scene.edges[2 * e + 1]; });
-    return out;
-  }
-
-  keptVertices(scene, filter) {
-    const out = [];
-    for (let v = 0; v < scene.count; v++) if (filter.rank[v] >= this.cut) out.push(v);
-    return Uint32Array.from(out);
   }
 
   /** A scale of colours with three numbers, part of the picture so that it is saved with it. */
@@ -1263,4 +1299,3 @@ if (typeof document !== "undefined") {
 }
 
 export default { render };
-export { Scene, mount };
