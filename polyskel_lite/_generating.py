@@ -9,7 +9,7 @@ from ._ball_pairs import lengths, meeting_pairs, rounding
 
 # A ball reaches a place when it misses it by less than this share of its radius.
 _REACH = 1e-12
-# A hole is covered by a ball alone if its corners are deeper in it than this share of the radius.
+# A ball is needed if a hole between the others reaches deeper into it than this share of its radius.
 _DEPTH = 1e-9
 
 
@@ -36,7 +36,7 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     return first[keep]
 
 
-def needed(centers, radii, exposed, hidden, corners_of) -> np.ndarray:
+def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
     """Leave out balls that lie in the union of the others, smallest first; the indices of the rest, sorted.
 
     Parameters
@@ -48,8 +48,9 @@ def needed(centers, radii, exposed, hidden, corners_of) -> np.ndarray:
         Balls with a piece of the boundary: these are needed.
     hidden : (k,) bool array
         Balls with an empty power cell: these are not, all at once.
-    corners_of : callable
-        ``(centers, radii) -> (s, N)``, the singular points of a union.
+    room_in : callable
+        ``(centers, radii, point) -> float``, the radius of the largest ball around a point that lies in the
+        union, negative if the point does not.
 
     Examples
     --------
@@ -57,9 +58,11 @@ def needed(centers, radii, exposed, hidden, corners_of) -> np.ndarray:
 
     >>> import numpy as np, polyskel_lite as psl
     >>> centers = np.array([(1.1, 0), (-0.55, 0.9526), (-0.55, -0.9526), (0, 0.05)])
-    >>> corners = lambda c, r: psl.Polyball(c, r).singular_points()
+    >>> def room(c, r, point):
+    ...     Y = psl.Polyball(c, r)
+    ...     return Y.boundary_distance([point])[0] if Y.contains([point])[0] else -1.0
     >>> radii, outer = np.array([1, 1, 1, 0.3]), np.array([True, True, True, False])
-    >>> needed(centers, radii, outer, np.zeros(4, dtype=bool), corners).tolist()
+    >>> needed(centers, radii, outer, np.zeros(4, dtype=bool), room).tolist()
     [0, 1, 2, 3]
     """
     keep = ~hidden | exposed
@@ -73,11 +76,10 @@ def needed(centers, radii, exposed, hidden, corners_of) -> np.ndarray:
     for ball in candidates[np.argsort(radii[candidates], kind="stable")]:
         others = pairs[first[ball] : first[ball + 1], 1]
         others = others[keep[others]]
-        # Its sphere is covered, so a place that it covers alone is in a hole between the others: the corners
-        # of the hole are singular points of the union of the others, inside the ball.
-        corners = corners_of(centers[others], radii[others])
-        depth = radii[ball] - lengths(corners - centers[ball])
-        keep[ball] = bool((depth > _DEPTH * radii[ball]).any())
+        # Its sphere is covered, so a place that it covers alone is in a hole between the others. The corners
+        # of the hole may all be on its sphere (Delaunay balls), so that only the distance to arcs tells.
+        room = room_in(centers[others], radii[others], centers[ball])
+        keep[ball] = bool(room < (1 - _DEPTH) * radii[ball])
     return np.flatnonzero(keep)
 
 

@@ -245,9 +245,7 @@ class Polyball:
         """
         hidden = np.ones(len(self._rows), dtype=bool)
         hidden[self._power.faces(1)] = False
-        return self._rows[
-            needed(*self._balls, self._exposed, hidden, lambda c, r: Polyball(c, r).singular_points())
-        ]
+        return self._rows[needed(*self._balls, self._exposed, hidden, _room_in)]
 
     def minimal(self) -> Polyball:
         """Drop the balls that are not needed: see `generating`.
@@ -567,6 +565,12 @@ class Polyball:
                 f"Polyball.{method}() is for {where}, and these balls have {self.dimension} coordinates; "
                 f"use {instead}()."
             )
+
+
+def _room_in(centers, radii, point) -> float:
+    """Radius of the largest ball around a point in a union of balls, negative if the point is not in it."""
+    Y = Polyball(centers, radii)
+    return float(Y.boundary_distance([point])[0]) if Y.contains([point])[0] else -1.0
 
 
 def _as_radii(radii, count: int) -> np.ndarray:
