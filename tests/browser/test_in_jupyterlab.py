@@ -157,6 +157,10 @@ def test_a_handle_is_dragged_and_the_numbers_agree(notebook):
     page.mouse.move(x - 30, y + 10, steps=10)
     page.mouse.up()
     check()
+    box = handle.bounding_box()
+    assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(
+        (x - 30, y + 10), abs=1
+    )
     handle.focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Shift+ArrowUp")

@@ -121,7 +121,8 @@ def test_the_picture_follows_the_keyboard(visit, folder, name):
     opened = visit(folder.as_uri(), f"{name}.html")
     root = opened.page.locator(".psl-viewer")
     first = last = pixels(opened.page)
-    assert len(np.unique(first.reshape(-1, first.shape[-1]), axis=0)) > 20
+    rows, columns = (slice(size // 4, 3 * size // 4) for size in first.shape[:2])
+    assert len(np.unique(first[rows, columns].reshape(-1, first.shape[-1]), axis=0)) > 20
     for control, key in (
         ("canvas", "ArrowLeft"),
         ("canvas", "+"),
