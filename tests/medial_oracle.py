@@ -269,6 +269,8 @@ class Union:
             active = active[shrunk]
             t[active] = limit[shrunk]
         error[active] = np.inf
+        # Holes that rounding opens between spheres through one point are no shapes.
+        error[t < 1e3 * INSIDE * self.size] = np.inf
         return q + t[:, None] * u, t, error
 
     def _bound(self, q, u, p):
@@ -295,8 +297,9 @@ class Union:
             for p in points[rng.integers(len(points), size=min(number, 24))] if len(points) else ():
                 toward = self.directions(p)
                 mixed = rng.dirichlet(np.full(len(toward), 0.7)) @ toward
-                q.append(p[None])
-                u.append(mixed[None] / lengths(mixed))
+                if lengths(mixed) > 1e-6:
+                    q.append(p[None])
+                    u.append(mixed[None] / lengths(mixed))
         ball = rng.integers(len(self.r), size=interior)
         v = rng.standard_normal((interior, self.N))
         m = self.c[ball] + self.r[ball, None] * rng.random((interior, 1)) * v / lengths(v)[:, None]
@@ -330,9 +333,13 @@ class Union:
         return nerve_betti(self.c, self.r + inflate * self.size)
 
     def robust_betti(self):
-        """Betti numbers, or None if changing the radii by 1e-9 of the size changes them."""
+        """Betti numbers of the interior, or None in space if radii changed by 1e-9 of the size change them.
+
+        In the plane only tangent discs make a difference between the closed set and its interior. A point
+        that is on several circles and inside closes with the radii a little larger.
+        """
         low, high = self.betti(-1e-9), self.betti(1e-9)
-        return high if low == high else None
+        return high if low == high or self.N == 2 else None
 
     def tangent_pairs(self, tolerance=1e-9):
         """Pairs that touch from outside."""
@@ -590,7 +597,31 @@ def distant(rng, N):
     return c + 1e4 * _unit(rng, 1, N), r
 
 
-FAMILIES = (chain, cluster, ring, cage, scattered, lattice, grid, nested, unequal, distant)
+def delaunay_balls(rng, N):
+    """Balls through N + 1 of some points with none inside, a few left out: the paper's Y_w."""
+    points = rng.standard_normal((int(rng.integers(6, 14 if N == 2 else 9)), N))
+    corners = points[list(combinations(range(len(points)), N + 1))]
+    legs = corners[:, 1:] - corners[:, :1]
+    c = corners[:, 0] + np.linalg.solve(legs, (legs**2).sum(axis=-1)[..., None])[..., 0] / 2
+    r = lengths(c - corners[:, 0])
+    empty = (lengths(c[:, None] - points) > r[:, None] * (1 - 1e-9)).all(axis=1)
+    keep = np.flatnonzero(empty & (r < 3) & (rng.random(len(r)) < 0.8))[:25]
+    return (c[keep], r[keep]) if len(keep) else (np.zeros((1, N)), np.ones(1))
+
+
+FAMILIES = (
+    chain,
+    cluster,
+    ring,
+    cage,
+    scattered,
+    lattice,
+    grid,
+    nested,
+    unequal,
+    distant,
+    delaunay_balls,
+)
 
 
 def random_polyball(number: int, N: int):

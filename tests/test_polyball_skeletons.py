@@ -2,7 +2,7 @@
 
 `medial_oracle` knows no theorem. It grows maximal balls in unions of balls, measures distances to the
 boundary and counts holes by brute force; here its answers are compared with the library's, on `PER_FAMILY`
-polyballs of each of ten families in the plane and as many in space.
+polyballs of each of eleven families in the plane and as many in space.
 
 Tolerances are shares of the size of the polyball (radius of a ball around it). `TOLERANCE` is what both sides
 can lose where circles cross at ordinary angles: corners are known to 1e-12 of the size or better (corners
@@ -140,8 +140,8 @@ def test_radii_are_distances_to_the_boundary(family, N):
 def test_homotopy(family, N):
     """The skeleton has the Betti numbers of the polyball: of the nerve of its balls.
 
-    Left out are polyballs whose holes open or close when radii change by 1e-9 of the size: there the closed
-    set and its interior differ, and the skeleton goes with the interior.
+    Left out in space are polyballs whose holes open or close when radii change by 1e-9 of the size: there
+    the closed set and its interior may differ, and the skeleton goes with the interior.
     """
     compared = 0
     for x in cases(family, N):
@@ -149,7 +149,7 @@ def test_homotopy(family, N):
         if betti is not None:
             assert x.skeleton.betti() == betti, x.name
             compared += 1
-    assert compared >= 0.9 * PER_FAMILY
+    assert compared >= 0.8 * PER_FAMILY
 
 
 def test_the_families_have_loops_and_cavities():
@@ -609,6 +609,29 @@ def test_minimal_writing_is_not_unique():
     check_medial(truth, Y.skeleton(), rng)
     without = Union(Y.centers[:3], Y.radii[:3])
     assert (truth.betti(), without.betti()) == ((1, 0), (1, 1))
+
+
+@each_dimension
+def test_a_ball_whose_hole_has_its_corners_on_the_sphere_is_needed(N):
+    """As in Y_w: the other Delaunay balls pass through N + 1 points of one, and leave a hole between them."""
+    if N == 2:
+        angle = np.pi * (1 + 2 * np.arange(3)) / 3
+        away_from, radius = 2.5 * np.column_stack([np.cos(angle), np.sin(angle)]), np.sqrt(19) / 2
+    else:
+        directions = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt(3)
+        away_from, radius = -13 / 3 * directions, np.sqrt(152) / 3
+    Y = psl.Polyball(np.concatenate([away_from, np.zeros((1, N))]), np.append(np.full(N + 1, radius), 1))
+    truth = Union(Y.centers, Y.radii)
+    assert not truth.redundant(N + 1)
+    assert Y.generating().tolist() == list(range(N + 2))
+    assert not Y.exposed()[N + 1]
+    assert Y.skeleton().betti() == truth.betti(1e-9) == (1, 0, 0)[:N]
+    rng = np.random.default_rng(0)
+    check_complete(truth, Y.skeleton(), rng)
+    check_medial(truth, Y.skeleton(), rng)
+    missing = Union(away_from, np.full(N + 1, radius))
+    assert missing.boundary_distance(np.zeros((1, N)))[0] < 0.4
+    assert missing.robust_betti() == ((1, 1) if N == 2 else (1, 0, 1))
 
 
 def test_a_ring_and_a_hollow_ball():
