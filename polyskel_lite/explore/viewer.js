@@ -906,6 +906,7 @@ class Viewer {
       + `Keys: arrows ${solid ? "turn, Shift and arrows move" : "move"}, + and − zoom, Home resets.`);
     this.rows();
     this.element.classList.add("psl");
+    this.element.dataset.lmSuppressShortcuts = "true"; // JupyterLab would keep the arrow keys from the sliders
     this.element.setAttribute("role", "group");
     this.element.setAttribute("aria-label", header.name);
     if (header.look) this.element.append(make("p", { class: "psl-look" }, header.look));
