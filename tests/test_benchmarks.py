@@ -108,3 +108,24 @@ def test_committed_numbers_have_the_columns(module):
     assert tuple(rows_of(FOLDER / "peers.csv")[0]) == peers.COLUMNS
     pinned = (FOLDER / "peers.txt").read_text().split()
     assert all(line.count("==") == 1 and not line.startswith("-") for line in pinned)
+
+
+def test_polyballs(tmp_path):
+    command = [
+        sys.executable,
+        FOLDER / "polyballs.py",
+        "--largest",
+        "100",
+        "--polyballs",
+        "11",
+        "--out",
+        tmp_path,
+    ]
+    subprocess.run(command, check=True, stdout=subprocess.PIPE)
+    times, checks = rows_of(tmp_path / "polyballs.csv"), rows_of(tmp_path / "polyball_checks.csv")
+    assert [(row["balls"], row["dimension"]) for row in times] == [
+        (name, N) for name in ("scattered", "chain") for N in "23"
+    ]
+    for row in checks:
+        assert int(row["medial_points"]) > 500
+        assert row["missed"] == row["not_medial"] == row["betti_wrong"] == "0"
