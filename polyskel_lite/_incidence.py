@@ -71,6 +71,13 @@ class Incidence:
         j = i + 1 + np.arange(len(i)) - np.repeat(np.cumsum(later) - later, later)
         return np.column_stack([ball[i], ball[j]])
 
+    def balls_of_each(self, n: int) -> np.ndarray:
+        """The balls of singular points that lie on exactly n, (s, n), -1 for the others."""
+        balls = np.full((len(self.first) - 1, n), -1)
+        plain = np.flatnonzero(np.diff(self.first) == n)
+        balls[plain] = self.keys[self.first[plain, None] + np.arange(n)] % self.count
+        return balls
+
     def smallest(self, radii: np.ndarray) -> np.ndarray:
         """The radius of the smallest ball through each singular point, (s,)."""
         smallest = np.full(len(self.first) - 1, np.inf)

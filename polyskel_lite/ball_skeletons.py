@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ._edge_rings import edge_rings
 from ._incidence import Incidence, gather
 from ._polygons import Polygons
 from ._rows import unique_rows
@@ -105,7 +106,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
         edges.append(_chains(lines, vertices))
         if n == 3:
             sheets = _faces(t, label, on, boundary.exposed, 2)
-            polygons, flat = _polygons(sheets, vertices, corners)
+            polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
             edges += [flat, _sides(polygons)]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
     used = np.zeros(len(vertices), dtype=bool)
@@ -127,7 +128,7 @@ def _triangulate(corners) -> PowerTriangulation:
     near[~np.isfinite(near)] = 0
     lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
     size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
-    return regular_triangulation(corners, lift, size)
+    return regular_triangulation(corners, lift, size, hide=False)
 
 
 def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
@@ -145,33 +146,19 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
     given &= np.abs(radii[nearest] - size) <= _SAME * size
     label[rest[given]] = nearest[given]
     rest, place, size = rest[~given], place[~given], size[~given]
-    number = np.full(len(t.simplices) + 1, -1)
+    kept = _in_union(t.simplices[rest], place, corners, on, centers, power)
+    rest, place, size = rest[kept], place[kept], size[kept]
+    number = np.full(len(t.simplices), -1)
     number[rest] = np.arange(len(rest))
-    own = np.append(label < 0, True)
-    sides, facets = _facet_sides(t)
-    free = np.ones(len(sides), dtype=bool)
-    real_facets = np.flatnonzero((facets < len(corners)).all(axis=1))
-    free[real_facets[on.common(facets[real_facets])[0]]] = False
-    free &= own[sides].all(axis=1)
-    # Whether the Voronoi ball lies in the union can change along the Voronoi graph only at centres of balls.
-    _, part = components(len(own), sides[free])
-    inside = np.zeros(part.max() + 1, dtype=bool)
-    order = np.argsort(size)
-    largest = np.full(len(inside), -1)
-    largest[part[rest[order]]] = order
-    outside = np.append(np.flatnonzero(~real), len(t.simplices))
-    largest[part[outside]] = -1
-    tested = np.flatnonzero(largest >= 0)
-    inside[tested] = power.in_dual_shape(place[largest[tested]])
-    inside[tested] &= strictly_inside(place[largest[tested]], centers, radii, _SAME)
-    pairs = number[sides[free]]
-    pairs = pairs[(pairs >= 0).all(axis=1)]
+    pairs = np.column_stack(
+        [np.repeat(np.arange(len(rest)), t.simplices.shape[1]), number[t.neighbors[rest]].ravel()]
+    )
+    pairs = pairs[pairs[:, 1] >= 0]
     twins = pairs[_distance(place, pairs) <= _SAME * size[pairs].min(axis=1)]
     count, group = components(len(rest), twins)
     representative = np.zeros(count, dtype=np.int64)
     representative[group] = np.arange(len(rest))
-    kept = inside[part[rest]]
-    label[rest[kept]] = k + group[kept]
+    label[rest] = k + group
     return label, np.concatenate([centers, place[representative]]), np.append(radii, size[representative])
 
 
@@ -189,15 +176,32 @@ def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
     return place, np.sqrt(((place[:, None] - corners) ** 2).sum(axis=2)).mean(axis=1)
 
 
-def _facet_sides(t) -> tuple[np.ndarray, np.ndarray]:
-    """For each facet the two simplices beside it (m, 2), number t for none, and its corners (m, N)."""
-    rows, opposite = np.nonzero(t.neighbors < np.arange(len(t.simplices))[:, None])
-    sides = np.column_stack([rows, t.neighbors[rows, opposite]])
-    sides[sides < 0] = len(t.simplices)
-    others = np.array(
-        [[c for c in range(t.simplices.shape[1]) if c != o] for o in range(t.simplices.shape[1])]
-    )
-    return sides, np.sort(t.simplices[rows[:, None], others[opposite]], axis=1)
+def _in_union(simplices, place, corners, on: Incidence, centers, power) -> np.ndarray:
+    """Which Voronoi balls of singular points lie in the union of the given balls, (m,) bool array.
+
+    A Voronoi ball around m that passes through the singular point p lies in the union if and only if m - p is
+    a positive combination of the directions from p to the centres of its balls. All corners of the simplex
+    agree on that; the one that is clearest decides.
+    """
+    m, n = place.shape
+    own = on.balls_of_each(n)
+    inside, clearest = np.zeros(m, dtype=bool), np.zeros(m)
+    for p in simplices.T:
+        towards = centers[own[p]] - corners[p][:, None]
+        towards /= np.sqrt((towards**2).sum(axis=2, keepdims=True))
+        offset = place - corners[p]
+        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > 1e-12)
+        towards[~clear] = np.eye(n)
+        share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
+        margin = np.where(clear, share / np.sqrt((offset**2).sum(axis=1)), 0)
+        better = np.abs(margin) > clearest
+        inside[better], clearest[better] = margin[better] > -_SAME, np.abs(margin[better])
+    # Where more than N balls meet in every corner, ask the dual shape.
+    open_ = np.flatnonzero(clearest < _FLAT)
+    open_ = open_[strictly_inside(place[open_], centers, np.sqrt(power.weights[: power.count]), _SAME)]
+    inside[clearest < _FLAT] = False
+    inside[open_] = power.in_dual_shape(place[open_])
+    return inside
 
 
 def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
@@ -237,7 +241,26 @@ def _directions(face, places) -> np.ndarray:
     return np.repeat(offset[farthest], size, axis=0)
 
 
-def _polygons(faces: _Faces, vertices, corners) -> tuple[Polygons, np.ndarray]:
+def _ring_places(t, label, faces: _Faces) -> np.ndarray:
+    """The place of each skeleton vertex in the ring around its face, -1 on faces that are cut."""
+    edges, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
+    vertex = label[owner]
+    outside = np.zeros(len(edges), dtype=bool)
+    outside[edge[vertex < 0]] = True
+    rows = np.lexsort((position, vertex, edge))
+    rows = rows[vertex[rows] >= 0]
+    bound = 1 + max(label.max(), faces.vertex.max(initial=0))
+    key, first = np.unique(edge[rows] * bound + vertex[rows], return_index=True)
+    key, first = np.append(key, -1), np.append(rows[first], 0)
+    wanted = faces.face * bound + faces.vertex
+    at = np.searchsorted(key[:-1], wanted)
+    place = np.where(key[at] == wanted, position[first[at]], -1)
+    # A centre of a ball that is no vertex of the ring is where the face was cut.
+    outside[faces.face[place < 0]] = True
+    return np.where(outside[faces.face], -1, place)
+
+
+def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.ndarray]:
     """The convex polygons with three corners or more, in order, and the edges of those that are flat."""
     face, vertex = faces.face, faces.vertex
     if not len(face):
@@ -251,10 +274,13 @@ def _polygons(faces: _Faces, vertices, corners) -> tuple[Polygons, np.ndarray]:
     y = np.cross(normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)), x)
     along, across = np.einsum("mi,mi->m", offset, x), np.einsum("mi,mi->m", offset, y)
     extent = np.maximum.reduceat(np.abs(along), first)
-    solid = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
+    wide = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
+    solid = np.where(place >= 0, np.repeat(size >= 3, size), wide)
     line = _Faces(faces.generators, face[~solid], vertex[~solid])
-    # The middle of a convex polygon is inside it, so its corners are in order as seen from there.
-    order = np.lexsort((np.arctan2(across, along)[solid], face[solid]))
+    # Faces that are in as a whole keep the order of their ring, which no rounding can change. For the others:
+    # the middle of a convex polygon is inside it, so its corners are in order as seen from there.
+    turn = np.where(place >= 0, place, np.arctan2(across, along))
+    order = np.lexsort((turn[solid], face[solid]))
     ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
     return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)
 

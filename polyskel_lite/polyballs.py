@@ -13,10 +13,13 @@ from functools import cached_property
 
 import numpy as np
 
+from ._ball_distance import distance_to_boundary
 from ._ball_pairs import crossings
 from ._generating import distinct, isolated_lenses, lonely, needed
 from ._incidence import Incidence
+from .ball_patches import patches
 from .ball_skeletons import Boundary, ball_skeleton
+from .ball_volumes import surface_area, volume
 from .complexes import Skeleton
 from .discs import TURN, Arcs, DiscBoundary, disc_boundary, distance_to_arcs
 from .errors import InputError, TangentBallsError
@@ -333,6 +336,8 @@ class Polyball:
             If two balls touch from outside in a point of the boundary; ``.pairs`` lists them.
         InputError
             If the statement is unknown.
+        TessellationError
+            If singular points crowd together, millions of times closer than the balls are large.
 
         Notes
         -----
@@ -396,8 +401,6 @@ class Polyball:
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,)) - self._origin
         if self.dimension == 3:
-            from ._ball_distance import distance_to_boundary
-
             return distance_to_boundary(queries, *self._balls, self._power, self._boundary)
         return distance_to_arcs(queries, *self._balls, self._boundary.arcs)
 
@@ -419,9 +422,7 @@ class Polyball:
         16.0
         """
         if self.dimension == 3:
-            from .ball_volumes import surface_area
-
-            return surface_area(*self._balls, self._power)
+            return surface_area(*self._balls, self._power, self._boundary)
         centers, radii = self._balls
         ball, start, end = self._boundary.arcs
         radius = radii[ball]
@@ -448,17 +449,15 @@ class Polyball:
         72.0
         """
         self._only(3, "volume", "area")
-        from .ball_volumes import volume
+        return volume(*self._balls, self._power, self._boundary)
 
-        return volume(*self._balls, self._power)
-
-    def patches(self, fineness: int | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def patches(self, fineness: float = 0.03) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Triangulate the boundary of a polyball in space, well enough to draw it.
 
         Parameters
         ----------
-        fineness : int, optional
-            See `polyskel_lite.ball_patches.patches`.
+        fineness : float
+            Length of the edges, as a share of the longest side of the box around the polyball.
 
         Returns
         -------
@@ -480,10 +479,7 @@ class Polyball:
         (3, 3, [0, 1])
         """
         self._only(3, "patches", "arcs")
-        from .ball_patches import patches
-
-        options = {} if fineness is None else {"fineness": fineness}
-        vertices, triangles, ball = patches(*self._balls, self._power, **options)
+        vertices, triangles, ball = patches(*self._balls, self._power, self._boundary, fineness)
         return vertices + self._origin, triangles, self._rows[ball]
 
     def boundary(self):

@@ -123,11 +123,6 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
         Around 0, so that nothing is lost by squaring.
     radii : (k,) float array
 
-    Raises
-    ------
-    TessellationError
-        If Qhull gives up.
-
     References
     ----------
     Aurenhammer, Power diagrams: properties, algorithms and applications, 1987; Edelsbrunner, The union of
@@ -146,7 +141,7 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
     return regular_triangulation(centers, radii**2, size)
 
 
-def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
+def regular_triangulation(points, weights, size: float, hide: bool = True) -> PowerTriangulation:
     """Triangulate weighted points within distance `size` of 0, with ghosts around them.
 
     Parameters
@@ -154,6 +149,13 @@ def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
     points : (k, N) float array
     weights : (k,) float array
     size : float
+    hide : bool
+        Whether points may be hidden; if not, every point must come out as a vertex.
+
+    Raises
+    ------
+    TessellationError
+        If Qhull gives up, or loses points that may not be hidden.
 
     Examples
     --------
@@ -167,7 +169,7 @@ def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
     points = np.concatenate([points, ghosts])
     weights = np.append(weights, np.zeros(n + 1))
     height = (points**2).sum(axis=1) - weights
-    hull = _hull(np.column_stack([points / size, height / size**2]))
+    hull = _hull(np.column_stack([points / size, height / size**2]), hide)
     down = hull.equations[:, n]
     lower = down < -1e-12
     number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
@@ -184,15 +186,20 @@ def regular_triangulation(points, weights, size: float) -> PowerTriangulation:
     )
 
 
-def _hull(points) -> ConvexHull:
+def _hull(points, hide: bool) -> ConvexHull:
     # Q12: go on where facets are merged widely, as around samples that dozens of balls nearly share. Where
     # even that fails, QJ moves the points by some 1e-11 of their size, so that nothing needs to be merged.
     for options in ("Qt Q12", "QJ Q12"):
         try:
-            return ConvexHull(points, qhull_options=options)
+            hull = ConvexHull(points, qhull_options=options)
         except QhullError as error:
             reason = str(error).splitlines()[0]
-    raise TessellationError(f"Qhull could not triangulate these balls: {reason}")
+        else:
+            lost = len(points) - len(hull.vertices)
+            if hide or not lost:
+                return hull
+            reason = f"{lost} of {len(points)} places are too close together to be told apart"
+    raise TessellationError(f"Qhull could not triangulate this: {reason}.")
 
 
 def _simplex_around_the_unit_ball(n: int) -> np.ndarray:
