@@ -8,6 +8,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 from accessibility import STRUCTURE, findings
+from conftest import ROOT, pages
 
 import polyskel_lite as psl
 from polyskel_lite import explore
@@ -30,6 +31,12 @@ AT_REST = """async () => {
         await new Promise((done) => setTimeout(done, 500));
     }
 }"""
+# The chapters that show a viewer.
+CHAPTERS = [
+    name
+    for name in pages()
+    if (file := ROOT / f"notebooks/{name}.ipynb").exists() and "psl-viewer" in file.read_text("utf-8")
+]
 # Where the slider of thresholds is taken to, one after the other.
 MOVES = [["Home"], ["PageUp"], ["PageUp", "ArrowRight"], ["PageUp"] * 2, ["PageUp"] * 4, ["End"]]
 
@@ -188,3 +195,18 @@ def test_three_still_pictures_without_javascript(visit, folder):
         assert picture.get_attribute("alt")
         assert picture.bounding_box()["width"] > 100
     opened.assert_quiet()
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_the_viewers_of_a_chapter(visit, book, name):
+    opened = visit(book.as_uri(), f"{name}.html")
+    for root in opened.page.locator(".psl-viewer").all():
+        whole = int(root.get_attribute("data-vertices"))
+        for slider in root.locator("[data-control=threshold]").all():
+            slider.press("End")
+            assert int(root.get_attribute("data-vertices")) < whole
+    opened.assert_quiet()
+    plain = visit(book.as_uri(), f"{name}.html", java_script_enabled=False).page
+    assert plain.locator(".psl-strip").count() == opened.page.locator(".psl-viewer").count()
+    for picture in plain.locator(".psl-strip img").all():
+        assert picture.is_visible()
