@@ -906,11 +906,12 @@ class Viewer {
       + `Keys: arrows ${solid ? "turn, Shift and arrows move" : "move"}, + and − zoom, Home resets.`);
     this.rows();
     this.element.classList.add("psl");
-    this.element.dataset.lmSuppressShortcuts = "true"; // JupyterLab would keep the arrow keys from the sliders
     this.element.setAttribute("role", "group");
     this.element.setAttribute("aria-label", header.name);
     if (header.look) this.element.append(make("p", { class: "psl-look" }, header.look));
     this.element.append(this.stage, this.status, this.heard, this.controls, hint);
+    // JupyterLab's shortcuts would keep arrow keys and letters from the part that has the focus.
+    for (const part of this.element.querySelectorAll("canvas, input, select, button")) part.dataset.lmSuppressShortcuts = "true";
     this.pointer();
     const sizes = new ResizeObserver(() => this.draw());
     sizes.observe(this.stage);
