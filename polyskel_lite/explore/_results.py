@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 #: A page shows so many branches, the longest ones; the CSV file has them all.
 ROWS_SHOWN = 40
-_CELL = "padding:0.1em 0.7em;text-align:right;font-variant-numeric:tabular-nums"
+_CELL = "padding:0.1em 0.7em;text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums"
 
 
 class Branch(NamedTuple):

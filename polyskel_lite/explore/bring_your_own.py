@@ -147,14 +147,8 @@ class Explore(ipywidgets.VBox):
         self.upload = ipywidgets.FileUpload(
             accept=",".join(SUFFIXES), multiple=False, description="choose a file", layout={"width": "12em"}
         )
-        self.smooth = ipywidgets.FloatSlider(
-            1.0,
-            min=0,
-            max=5,
-            step=0.5,
-            description="smoothing of pictures (pixels)",
-            layout={"width": "32em"},
-            **wide,
+        self.smooth = ipywidgets.Dropdown(
+            options=[0, 0.5, 1, 2, 3, 5], value=1, description="smoothing of pictures (pixels)", **wide
         )
         self.invert = ipywidgets.Checkbox(
             False, description="the bright part of a picture is the shape", **wide
