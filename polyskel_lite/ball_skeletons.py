@@ -19,6 +19,7 @@ from ._incidence import Incidence, gather
 from ._polygons import Polygons
 from ._rows import unique_rows
 from .complexes import Skeleton
+from .errors import TessellationError
 from .power import PowerTriangulation, regular_triangulation
 from .spheres import strictly_inside
 from .topology import components
@@ -128,7 +129,10 @@ def _triangulate(corners) -> PowerTriangulation:
     near[~np.isfinite(near)] = 0
     lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
     size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
-    return regular_triangulation(corners, lift, size, hide=False)
+    try:
+        return regular_triangulation(corners, lift, size, hide=False)
+    except TessellationError:  # where points crowd together, lifting them by less than rounding does harm
+        return regular_triangulation(corners, np.zeros(len(corners)), size, hide=False)
 
 
 def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
