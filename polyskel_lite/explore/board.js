@@ -57,9 +57,14 @@ function render({ model, el }) {
     root.dataset.busy = String(Boolean(sent || moved));
   }
 
-  // The controls' sliders come without a name for readers of the screen: give them the label beside them.
+  // The controls' sliders come without a name for readers of the screen: give them the label beside them. And
+  // JupyterLab's shortcuts (arrows, x for "cut the cell" ...) are not for the part that has the focus.
   function nameSliders() {
-    for (const slider of root.closest(".psl-explorer")?.querySelectorAll(".widget-slider") ?? []) {
+    const whole = root.closest(".psl-explorer");
+    for (const part of whole?.querySelectorAll(".psl-handle, .noUi-handle, input, select, button") ?? []) {
+      part.dataset.lmSuppressShortcuts = "true";
+    }
+    for (const slider of whole?.querySelectorAll(".widget-slider") ?? []) {
       const handle = slider.querySelector(".noUi-handle:not([aria-label])");
       handle?.setAttribute("aria-label", slider.querySelector(".widget-label")?.textContent || "value");
     }
