@@ -105,6 +105,16 @@ def test_figure_10():
     return figures.figure_10()
 
 
+@compared("figure_11")
+def test_figure_11():
+    return figures.figure_11()
+
+
+@compared("figure_12")
+def test_figure_12():
+    return figures.figure_12()
+
+
 @compared("figure_13")
 def test_figure_13():
     return figures.figure_13()

@@ -28,6 +28,7 @@ from .spatial import (
     draw_samples_3d,
     focus_3d,
 )
+from .spatial_balls import draw_polyball_3d
 from .spatial_graphs import draw_tessellation_3d, draw_voronoi_3d
 from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d, view_direction
 from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, legend, setup
@@ -55,6 +56,7 @@ __all__ = [
     "draw_lines",
     "draw_lines_3d",
     "draw_mesh",
+    "draw_polyball_3d",
     "draw_samples",
     "draw_samples_3d",
     "draw_shape",

@@ -17,6 +17,7 @@ Examples
 
 from .definitions import figure_1, figure_2, figure_2_3d
 from .methods import figure_3, figure_4, figure_5, regular_shape
+from .polyballs import figure_11, figure_12
 from .proof import figure_13
 from .registry import FIGURES, write_figures
 from .removals import figure_6, figure_7
@@ -36,6 +37,8 @@ __all__ = [
     "figure_8",
     "figure_9",
     "figure_10",
+    "figure_11",
+    "figure_12",
     "figure_13",
     "regular_shape",
     "write_figures",
