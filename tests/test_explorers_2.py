@@ -256,6 +256,15 @@ def test_dragging_a_rim_and_the_slider_make_a_ball_grow():
     assert explorer.polyball.radii == pytest.approx([2.3, 1.5])
 
 
+def test_a_slider_that_snaps_to_its_steps_is_not_a_hand():
+    explorer = explore.balls(psl.Polyball([(0, 0), (3, 0)], [1, 1]))
+    radius = explorer.controls["radius"]
+    radius.value = 1 + 0.4 * radius.step  # what a browser does by itself when it shows the slider
+    assert explorer.polyball.radii.tolist() == [1, 1]
+    radius.value = 1 + 1.4 * radius.step  # one step further, by hand
+    assert explorer.polyball.radii.tolist() == [1 + 1.4 * radius.step, 1]
+
+
 def test_a_rim_dragged_into_the_centre_leaves_a_small_ball():
     explorer = explore.balls(psl.Polyball([(0, 0), (3, 0)], [1, 1]))
     moved(explorer, 1, (0.0, 0.0))
