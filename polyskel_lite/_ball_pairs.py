@@ -54,6 +54,18 @@ def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
     return np.minimum(i, j), np.maximum(i, j)
 
 
+def pair_bound(centers, radii) -> int:
+    """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
+    octave = np.frexp(radii)[1]
+    groups = [np.flatnonzero(octave == value) for value in np.unique(octave)]
+    trees = [cKDTree(centers[group]) for group in groups]
+    return sum(
+        int(trees[a].count_neighbors(trees[b], radii[groups[a]].max() + radii[groups[b]].max()))
+        for a in range(len(groups))
+        for b in range(a + 1)
+    )
+
+
 def swallowed(centers, radii, i, j) -> np.ndarray:
     """Which balls lie in a larger one, or in an equal one with a smaller index, up to the tolerance."""
     smaller = radii[i] < radii[j]

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ._ball_pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, rounding, swallowed, touching
+from .power import PowerTriangulation
 
 TURN = 2 * np.pi
 _CHUNK = 2_000_000  # point-arc pairs looked at together: bounds the memory, not the result
@@ -63,7 +64,9 @@ class Covers(NamedTuple):
     error: np.ndarray
 
 
-def disc_boundary(centers: np.ndarray, radii: np.ndarray) -> DiscBoundary:
+def disc_boundary(
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation | None = None
+) -> DiscBoundary:
     """Find the arcs of the boundary of a union of closed discs, and the points where circles meet on it.
 
     Discs in a larger disc have no arc; of equal discs the first has them all. Where two discs touch
@@ -74,6 +77,8 @@ def disc_boundary(centers: np.ndarray, radii: np.ndarray) -> DiscBoundary:
     centers : (k, 2) float array
     radii : (k,) float array
         Positive.
+    power : PowerTriangulation, optional
+        Of the same discs: then only pairs whose power cells meet are looked at.
 
     Returns
     -------
@@ -88,8 +93,10 @@ def disc_boundary(centers: np.ndarray, radii: np.ndarray) -> DiscBoundary:
     >>> sorted(corners.round(3).tolist())
     [[0.5, -0.866], [0.5, 0.866]]
     """
-    i, j = meeting_pairs(centers, radii)
+    i, j = meeting_pairs(centers, radii) if power is None else power.faces(2).T
     kept = ~swallowed(centers, radii, i, j)
+    if power is not None:
+        kept &= np.isin(np.arange(len(radii)), power.faces(1))
     both = kept[i] & kept[j]
     i, j = i[both], j[both]
     touch = touching(centers, radii, i, j)

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from ._ball_distance import distance_to_boundary
-from ._ball_pairs import crossings
+from ._ball_pairs import crossings, pair_bound
 from ._generating import distinct, isolated_lenses, lonely, needed
 from ._incidence import Incidence
 from .ball_patches import patches
@@ -27,6 +27,9 @@ from .power import PowerTriangulation, power_triangulation
 from .predicates import as_points
 from .spheres import SphereBoundary, sphere_boundary
 
+# Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
+# discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
+_PAIRS = 10_000_000
 _CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
 
 
@@ -515,7 +518,8 @@ class Polyball:
         # Found where the balls stand, because their rounding there says how far crossings are believed.
         centers, radii = self.centers[self._rows], self.radii[self._rows]
         if self.dimension == 2:
-            found = disc_boundary(centers, radii)
+            crowded = pair_bound(centers, radii) > _PAIRS
+            found = disc_boundary(centers, radii, self._power if crowded else None)
         else:
             found = sphere_boundary(centers, radii, self._power)
             circles = found.circles._replace(centers=found.circles.centers - self._origin)
@@ -529,6 +533,13 @@ class Polyball:
         exposed = np.zeros(len(self._rows), dtype=bool)
         exposed[self._boundary.arcs.ball] = True
         return exposed
+
+    @cached_property
+    def _generating(self) -> np.ndarray:
+        hidden = np.ones(len(self._rows), dtype=bool)
+        hidden[self._power.faces(1)] = False
+        rows = needed(*self._balls, self._exposed, hidden, lambda c, r: Polyball(c, r).singular_points())
+        return self._rows[rows]
 
     @cached_property
     def _bridges(self) -> np.ndarray:

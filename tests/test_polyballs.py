@@ -467,3 +467,14 @@ def test_arrays_are_copies_and_frozen():
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 2
     assert disc_boundary(Y.centers, Y.radii).arcs.ball.tolist() == [0]
+
+
+def test_crowded_discs_are_read_off_the_power_diagram(monkeypatch):
+    rng = np.random.default_rng(5)
+    centers, radii = rng.random((400, 2)) * 3, rng.random(400) * 0.4 + 0.3
+    plain, crowded = Polyball(centers, radii), Polyball(centers, radii)
+    area, arcs = plain.area(), plain.arcs()
+    monkeypatch.setattr("polyskel_lite.polyballs._PAIRS", 0)
+    assert crowded.area() == pytest.approx(area, rel=1e-12)
+    assert crowded.arcs().ball.tolist() == arcs.ball.tolist()
+    assert len(crowded.skeleton().edges) == len(plain.skeleton().edges)
