@@ -144,7 +144,11 @@ def draw_skeleton_3d(
     if cells:
         tint = np.array([color(p) for p in cells]) * _shades(nodes, cells)[:, None]
         flat = {"facecolors": tint, "edgecolors": tint * 0.75, "linewidths": 0.25, "zorder": look.zorder}
-        ax.add_collection3d(Poly3DCollection([nodes[p] for p in cells], **flat))
+        # All of one length, by repeating the last corner: matplotlib fills shorter ones up with memory that it
+        # has not set, and may warn of overflow there.
+        longest = max(map(len, cells))
+        even = [[*p, *[p[-1]] * (longest - len(p))] for p in cells]
+        ax.add_collection3d(Poly3DCollection(nodes[even], **flat))
     edges = skeleton.edges[free_edges(skeleton)] if wires == "free" else skeleton.edges
     edges = edges[seen[edges].all(axis=1)]
     if wires != "none" and len(edges):
