@@ -71,6 +71,10 @@ class Incidence:
         j = i + 1 + np.arange(len(i)) - np.repeat(np.cumsum(later) - later, later)
         return np.column_stack([ball[i], ball[j]])
 
+    def balls(self, point: int) -> np.ndarray:
+        """The balls of one singular point."""
+        return self.keys[self.first[point] : self.first[point + 1]] % self.count
+
     def balls_of_each(self, n: int) -> np.ndarray:
         """The balls of singular points that lie on exactly n, (s, n), -1 for the others."""
         balls = np.full((len(self.first) - 1, n), -1)

@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import nnls
 from scipy.spatial import cKDTree
 
 from ._edge_rings import edge_rings
@@ -21,7 +22,6 @@ from ._rows import unique_rows
 from .complexes import Skeleton
 from .errors import TessellationError
 from .power import PowerTriangulation, regular_triangulation
-from .spheres import strictly_inside
 from .topology import components
 
 # Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one.
@@ -31,6 +31,8 @@ _SAME = 1e-9
 _LIFT = 1e-6
 # A polygon narrower than this share of its length is a line.
 _FLAT = 1e-8
+# A vector that misses a cone by less than this share of its length is in it.
+_CONE = 1e-9
 
 
 class Boundary(NamedTuple):
@@ -62,7 +64,7 @@ class _Faces(NamedTuple):
     vertex: np.ndarray
 
 
-def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation, origin) -> Skeleton:
+def ball_skeleton(centers, radii, boundary: Boundary, origin) -> Skeleton:
     """Build the skeleton of a union of balls from the features of its boundary.
 
     Parameters
@@ -71,8 +73,6 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
     radii : (k,) float array
         No two balls equal.
     boundary : Boundary
-    power : PowerTriangulation
-        Of the same balls.
     origin : (N,) float array
         Added to the result.
 
@@ -89,11 +89,10 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
     Three balls in a row, every two of which cross in a whole circle or not at all:
 
     >>> import numpy as np
-    >>> from polyskel_lite.power import power_triangulation
     >>> centers, radii = np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3)
     >>> whole = np.ones(3, dtype=bool)
     >>> bare = Boundary(np.zeros((0, 3)), whole, whole, np.array([(0, 1), (1, 2)]))
-    >>> ball_skeleton(centers, radii, bare, power_triangulation(centers, radii), np.zeros(3)).edges.tolist()
+    >>> ball_skeleton(centers, radii, bare, np.zeros(3)).edges.tolist()
     [[0, 1], [1, 2]]
     """
     n = centers.shape[1]
@@ -102,7 +101,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, power: PowerTriangulation,
     if len(boundary.corners):
         corners, on = gather(boundary.corners, vertices, radii, origin)
         t = _triangulate(corners)
-        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii, power)
+        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii)
         lines = _faces(t, label, on, boundary.exposed, n)
         edges.append(_chains(lines, vertices))
         if n == 3:
@@ -135,7 +134,7 @@ def _triangulate(corners) -> PowerTriangulation:
         return regular_triangulation(corners, np.zeros(len(corners)), size, hide=False)
 
 
-def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
+def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
     """The skeleton vertex of each simplex (-1: none), and places and radii of all vertices, balls first."""
     k, real = len(radii), t.real()
     label = np.full(len(t.simplices), -1)
@@ -150,7 +149,7 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii, power):
     given &= np.abs(radii[nearest] - size) <= _SAME * size
     label[rest[given]] = nearest[given]
     rest, place, size = rest[~given], place[~given], size[~given]
-    kept = _in_union(t.simplices[rest], place, corners, on, centers, power)
+    kept = _in_union(t.simplices[rest], place, corners, on, centers)
     rest, place, size = rest[kept], place[kept], size[kept]
     number = np.full(len(t.simplices), -1)
     number[rest] = np.arange(len(rest))
@@ -180,7 +179,7 @@ def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
     return place, np.sqrt(((place[:, None] - corners) ** 2).sum(axis=2)).mean(axis=1)
 
 
-def _in_union(simplices, place, corners, on: Incidence, centers, power) -> np.ndarray:
+def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
     """Which Voronoi balls of singular points lie in the union of the given balls, (m,) bool array.
 
     A Voronoi ball around m that passes through the singular point p lies in the union if and only if m - p is
@@ -200,12 +199,18 @@ def _in_union(simplices, place, corners, on: Incidence, centers, power) -> np.nd
         margin = np.where(clear, share / np.sqrt((offset**2).sum(axis=1)), 0)
         better = np.abs(margin) > clearest
         inside[better], clearest[better] = margin[better] > -_SAME, np.abs(margin[better])
-    # Where more than N balls meet in every corner, ask the dual shape.
-    open_ = np.flatnonzero(clearest < _FLAT)
-    open_ = open_[strictly_inside(place[open_], centers, np.sqrt(power.weights[: power.count]), _SAME)]
-    inside[clearest < _FLAT] = False
-    inside[open_] = power.in_dual_shape(place[open_])
+    # Where more than N balls meet in every corner, look for the combination itself.
+    for row in np.flatnonzero(clearest < _FLAT):
+        inside[row] = all(
+            _in_cone(place[row] - corners[p], centers[on.balls(p)] - corners[p]) for p in simplices[row]
+        )
     return inside
+
+
+def _in_cone(vector, directions) -> bool:
+    directions = directions / np.sqrt((directions**2).sum(axis=1, keepdims=True))
+    _, residual = nnls(directions.T, vector)
+    return residual <= _CONE * np.sqrt(vector @ vector)
 
 
 def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:

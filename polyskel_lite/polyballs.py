@@ -377,7 +377,7 @@ class Polyball:
             if self.dimension == 2:
                 bridges = bridges[:0]
         features = Boundary(self._boundary.corners, self._exposed, alone, bridges)
-        return ball_skeleton(*self._balls, features, self._power, self._origin)
+        return ball_skeleton(*self._balls, features, self._origin)
 
     def boundary_distance(self, queries) -> np.ndarray:
         """Measure the distance from points to the boundary of the polyball.

@@ -1,4 +1,4 @@
-"""The power diagram of balls through its dual, the weighted Delaunay triangulation, and their dual shape.
+"""The power diagram of balls through its dual, the weighted Delaunay triangulation.
 
 A union of k balls is decided by few pairs and triples of them: those whose power cells meet. Everything about
 polyballs (appendix A) that would otherwise look at all triples is read off this triangulation.
@@ -15,9 +15,6 @@ from scipy.spatial import ConvexHull, QhullError
 from ._rows import unique_rows
 from .errors import TessellationError
 
-_ZERO = 1e-9  # powers below this share of the largest squared radius are 0
-_CHUNK = 4_000_000  # point-simplex pairs looked at together: bounds the memory, not the result
-
 
 class PowerTriangulation(NamedTuple):
     """Weighted Delaunay triangulation of balls and of N + 1 far ghost points that enclose them.
@@ -29,25 +26,20 @@ class PowerTriangulation(NamedTuple):
     ----------
     points : (k + N + 1, N) float array
         Centres, then ghosts.
-    weights : (k + N + 1,) float array
-        Squared radii; 0 for ghosts.
     simplices : (t, N+1) int array
         Without the hidden balls, whose power cell is empty. Not oriented.
     neighbors : (t, N+1) int array
         The simplex opposite each corner, -1 outside the ghosts.
     orthocenters : (t, N) float array
-    power : (t,) float array
-        Square of the orthoradius: the power that all corners give to the orthocentre.
+        The points of equal power to all corners: vertices of the power diagram.
     count : int
         k: indices from k on are ghosts.
     """
 
     points: np.ndarray
-    weights: np.ndarray
     simplices: np.ndarray
     neighbors: np.ndarray
     orthocenters: np.ndarray
-    power: np.ndarray
     count: int
 
     def real(self) -> np.ndarray:
@@ -78,40 +70,6 @@ class PowerTriangulation(NamedTuple):
         columns = list(combinations(range(corners), size))
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
         return unique_rows(rows[rows[:, -1] < self.count], self.count)[0]
-
-    def in_dual_shape(self, queries: np.ndarray) -> np.ndarray:
-        """Whether points lie in a full simplex of the dual shape (one of negative power), (m,) bool array.
-
-        There, and only there, the nearest points of the boundary of the union are singular points while the
-        queries are not on the simplices of lower dimension. Power 0, up to rounding, counts: its balls meet
-        in one point, which they surround, for a query that is in the union at all and not next to that point.
-
-        Parameters
-        ----------
-        queries : (m, N) float array
-
-        References
-        ----------
-        Amenta and Kolluri, The medial axis of a union of balls, 2001, section 4.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> balls = power_triangulation(np.array([(0.0, 0), (1, 0), (0, 1)]), np.ones(3))
-        >>> balls.in_dual_shape(np.array([(0.3, 0.3), (0.9, 0.9)])).tolist()
-        [True, False]
-        """
-        # The lifted triangulation is convex: over a query, the highest of all planes is that of its simplex.
-        height = (self.orthocenters**2).sum(axis=1) - self.power
-        inside = np.zeros(len(queries), dtype=bool)
-        zero = _ZERO * self.weights[self.simplices].max(axis=1)
-        negative = (self.power < zero) & self.real()
-        step = max(1, _CHUNK // len(self.simplices))
-        for first in range(0, len(queries), step):
-            rows = slice(first, first + step)
-            best = (2 * queries[rows] @ self.orthocenters.T - height).argmax(axis=1)
-            inside[rows] = negative[best]
-        return inside
 
 
 def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangulation:
@@ -174,14 +132,11 @@ def regular_triangulation(points, weights, size: float, hide: bool = True) -> Po
     lower = down < -1e-12
     number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
     slope = hull.equations[lower, :n] / (-2 * down[lower, None])
-    power = (slope**2).sum(axis=1) + hull.equations[lower, n + 1] / -down[lower]
     return PowerTriangulation(
         points=points,
-        weights=weights,
         simplices=hull.simplices[lower],
         neighbors=number[hull.neighbors[lower]],
         orthocenters=slope * size,
-        power=power * size**2,
         count=len(points) - n - 1,
     )
 
