@@ -6,6 +6,7 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 from claims import CHECKS, VERDICTS
 
@@ -118,6 +119,22 @@ def never_as_printed(P, strategy=None, criterion="corrected"):
     return HIERARCHY(P, strategy)
 
 
+POLYBALL = psl.Polyball
+
+
+def polyball_with(**methods):
+    """A Polyball with some methods that are wrong."""
+    return type("Wrong", (POLYBALL,), methods)
+
+
+def printed_skeleton(Y, statement="corrected"):
+    return POLYBALL.skeleton(Y, "as printed")
+
+
+def skeleton_of_smaller_balls(Y, statement="corrected"):
+    return POLYBALL(Y.centers, 0.9 * Y.radii).skeleton()
+
+
 def broken(claim: str) -> bool:
     verdict = next(entry["verdict"] for entry in CLAIMS if entry["id"] == claim)
     try:
@@ -152,6 +169,16 @@ def broken(claim: str) -> bool:
         ("misprint-perimeter", "hierarchy", never_as_printed),
         ("a-of-v", "hierarchy", as_printed),
         ("raw-threshold-wrong", "hierarchy", as_printed),
+        ("theorem-3", "Polyball", polyball_with(skeleton=skeleton_of_smaller_balls)),
+        ("theorem-4", "Polyball", polyball_with(skeleton=printed_skeleton)),
+        ("through-centres", "Polyball", polyball_with(skeleton=printed_skeleton)),
+        ("polyball-skeleton-simple", "Polyball", polyball_with(skeleton=printed_skeleton)),
+        ("polyball-by-voronoi", "Polyball", polyball_with(skeleton=skeleton_of_smaller_balls)),
+        ("def-minimal", "Polyball", polyball_with(generating=lambda Y: np.arange(len(Y)))),
+        ("def-disconnected", "Polyball", polyball_with(disconnected=POLYBALL.generating)),
+        ("def-quasi-disconnected", "Polyball", polyball_with(quasi_disconnected=POLYBALL.exposed_pairs)),
+        ("def-singular", "Polyball", polyball_with(singular_points=lambda Y: Y.centers.copy())),
+        ("sk2-polyball", "sk2", lambda shape, E=None, side="inner": psl.delaunay_balls(shape, E).skeleton()),
         ("branches-found", "hierarchy", as_printed),
     ],
 )

@@ -4,12 +4,13 @@
 ``pytest "tests/test_claims.py::test_verdict[id]"`` compares it with the register.
 """
 
-from . import comparison, complexity, graphs, introduction, methods, polyballs, proof, section4
+from . import appendix_a, comparison, complexity, graphs, introduction, methods, polyballs, proof, section4
 from .registry import CHECKS, VERDICTS
 
 __all__ = [
     "CHECKS",
     "VERDICTS",
+    "appendix_a",
     "comparison",
     "complexity",
     "graphs",

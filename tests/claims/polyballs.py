@@ -6,8 +6,10 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
+from medial_oracle import Union, distance_to_complex, random_polyball
 
 import polyskel_lite as psl
+from polyskel_lite.figures.solids import orange
 
 from .geometry import ELLIPSE_SKELETON, SWALLOWED, ellipse, exact, ring, strictly_gabriel_boundary
 from .introduction import L_SHAPE, _sites
@@ -63,27 +65,43 @@ def union_of_inner_balls():
 
 @check("sk2-polyball")
 def second_method_is_not_the_skeleton():
-    """A strictly Gabriel hexagon whose reflex sample is inside Y_w: edges of Sk2 lose a contact point."""
+    """A strictly Gabriel hexagon whose reflex sample is inside Y_w: the exact skeleton of Y_w is another set.
+
+    Under the four conditions they are equal in the plane. In space three tetrahedra fulfil them all, and
+    Sk2 is two sides of the triangle that is the skeleton of their balls.
+    """
     shape = ring(SWALLOWED)
     assert strictly_gabriel_boundary(shape)
-    reflex = exact(shape)[0].index((0, 0))
-    second = psl.sk2(shape)
-    Y = second.balls()
-    # All directions from the sample lead into some kept ball: the centres turn by less than half a turn.
-    angle = np.sort(np.arctan2(Y.centers[:, 1], Y.centers[:, 0]))
-    swallowed = np.diff(np.append(angle, angle[0] + 2 * np.pi)).max() < np.pi - 0.1
-    larger = 0
+    assert exact(shape)[0].index((0, 0)) == 0
+    found, second, Y = psl.sk2_conditions(shape), psl.sk2(shape), psl.delaunay_balls(shape)
+    assert found.swallowed.tolist() == [0]
+    assert abs(Y.boundary_distance([(0, 0)])[0] - 1) < 1e-12
+    assert np.allclose(found.extra, [(3 / 5, 4 / 5)], atol=1e-12)
+    differs = psl.hausdorff(second, Y.skeleton()) > 0.5
+    for name in ("horse", "gear", "lake"):
+        outline = psl.conform(psl.datasets.load(name), to="gabriel")
+        assert all(psl.sk2_conditions(outline).hold.values())
+        assert psl.hausdorff(psl.sk2(outline), psl.delaunay_balls(outline).skeleton()) < 1e-12
+    slices = orange(3, of=6).to_shape()
+    assert all(psl.sk2_conditions(slices).hold.values())
+    assert not len(psl.sk2(slices).polygons)
+    assert len(psl.delaunay_balls(slices).skeleton().polygons) == 1
+    return verdict(printed=not (differs and _fits_into_a_larger_ball(Y, second, shape)))
+
+
+def _fits_into_a_larger_ball(Y: psl.Polyball, second: psl.Skeleton, shape: psl.Shape) -> bool:
+    """Whether the largest ball in Y around the middle of each edge of Sk2 fits into a larger one."""
     for a, b in second.edges:
         m = (second.vertices[a] + second.vertices[b]) / 2
         distance = np.linalg.norm(shape.points - m, axis=1)
         first, other = np.argsort(distance)[:2]
-        assert reflex in (first, other)  # every edge of this Sk2 is equidistant from the reflex sample
-        contact = shape.points[other if first == reflex else first]
+        assert 0 in (first, other)  # every edge of this Sk2 is equidistant from the reflex sample
+        contact = shape.points[other if first == 0 else first]
         away, radius = (m - contact) / distance[first], distance[first]
-        # The ball around m fits into a larger one in Y_w that keeps the contact point.
         grown = Y.boundary_distance([m + 0.05 * away])[0] >= radius + 0.05 - 1e-9
-        larger += bool(grown and Y.contains([m + 0.05 * away])[0])
-    return verdict(printed=not (swallowed and larger == len(second.edges)))
+        if not (grown and Y.contains([m + 0.05 * away])[0]):
+            return False
+    return True
 
 
 @check("polyball-approximates")
@@ -149,7 +167,30 @@ def pieces_of_a_polyball_skeleton():
     assert maximal > 10 < others
     disc = psl.Polyball([(0, 0)], [1])
     only_center = not _grows(disc, np.zeros(2)) and _grows(disc, np.array([0.3, 0.1]))
+    assert _flat_convex_polygons()
     return verdict(printed=not only_center, repaired=True)
+
+
+def _flat_convex_polygons() -> bool:
+    """In space: whether skeletons of random polyballs are made of segments and flat convex polygons."""
+    seen = 0
+    for number in range(20):
+        _, centers, radii = random_polyball(number, 3)
+        skeleton = psl.Polyball(centers, radii).skeleton()
+        m, _, error = Union(centers, radii).medial_points(np.random.default_rng(number))
+        size = np.ptp(centers, axis=0).max() + radii.max()
+        away = distance_to_complex(m, skeleton.vertices, skeleton.edges, skeleton.polygons)
+        if (away > 1e-8 * size + 10 * error)[error < 1e-6 * size].any():
+            return False
+        for polygon in skeleton.polygons:
+            p = skeleton.vertices[polygon]
+            side = np.roll(p, -1, axis=0) - p
+            turns = np.cross(side, np.roll(side, -1, axis=0))
+            normal = turns.sum(axis=0) / np.linalg.norm(turns.sum(axis=0))
+            if np.abs((p - p[0]) @ normal).max() > 1e-8 * size or (turns @ normal).min() < -1e-8 * size**2:
+                return False
+            seen += 1
+    return seen > 50
 
 
 @check("fig-4")
