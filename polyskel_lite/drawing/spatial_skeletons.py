@@ -144,7 +144,7 @@ def draw_skeleton_3d(
     if cells:
         tint = np.array([color(p) for p in cells]) * _shades(nodes, cells)[:, None]
         flat = {"facecolors": tint, "edgecolors": tint * 0.75, "linewidths": 0.25, "zorder": look.zorder}
-        # All of one length, by repeating the last corner: matplotlib fills shorter ones up with memory that it
+        # All of one length, by repeating the last corner: matplotlib fills others up with memory that it
         # has not set, and may warn of overflow there.
         longest = max(map(len, cells))
         even = [[*p, *[p[-1]] * (longest - len(p))] for p in cells]
