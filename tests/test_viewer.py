@@ -179,6 +179,15 @@ def test_dict_of_variants_shares_one_scale():
     assert picture.to_html().count("<figcaption>Number of samples: n = ") == 2
 
 
+def test_each_variant_of_a_skeleton_has_the_shape_of_its_key():
+    shapes = {n: psl.datasets.load("lake", n=n) for n in (400, 800)}
+    skeletons = {n: psl.sk0(shape) for n, shape in shapes.items()}
+    picture = explore.viewer(skeletons, shape=shapes)
+    assert [variant["samples"]["size"] for variant in picture.scene["variants"]] == [400, 800]
+    with pytest.raises(psl.InputError, match="no entry 800"):
+        explore.viewer(skeletons, shape={400: shapes[400]})
+
+
 def test_skeleton_alone_has_no_threshold():
     points = np.random.default_rng(1).random((20, 2))
     voronoi = psl.voronoi(points)

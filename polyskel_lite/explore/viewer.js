@@ -289,10 +289,13 @@ class Filter {
     return out;
   }
 
+  /** Whether a simplex is in the simplified shape: always if it has no vertex, as the skeleton is not the shape's dual. */
+  remains(simplex, cut) { return (this.rank[simplex] ?? Infinity) >= cut; }
+
   /** In the plane, the triangles of the simplified shape. */
   region(cut) {
     if (this.scene.fill) return this.scene.fill;
-    return this.scene.simplices.filter((_, i) => this.rank[Math.floor(i / 3)] >= cut);
+    return this.scene.simplices.filter((_, i) => this.remains(Math.floor(i / 3), cut));
   }
 
   /** Facets of the boundary of the simplified shape, flat, turned outward. */
@@ -301,7 +304,7 @@ class Filter {
     if (surface) return surface;
     for (let f = 0; f < owners.length / 2; f++) {
       const a = owners[2 * f], b = owners[2 * f + 1];
-      const first = this.rank[a] >= cut, second = b >= 0 && this.rank[b] >= cut;
+      const first = this.remains(a, cut), second = b >= 0 && this.remains(b, cut);
       if (first === second) continue;
       for (let k = 0; k < N; k++) out.push(facets[N * f + (second && k < 2 ? 1 - k : k)]);
     }

@@ -76,8 +76,8 @@ def viewer(
         A sentence over the picture: what to look for.
     variant : str
         What the keys of a dict are, such as "number of samples".
-    shape : Shape, DelaunayShape or Polyball, optional
-        To be shown around a `Skeleton`.
+    shape : Shape, DelaunayShape or Polyball, or dict of these, optional
+        To be shown around a `Skeleton`; a dict has one for each key of `source`.
     view : (elevation, azimuth) in degrees, or dict, optional
         Where the camera stands in 3D, as for ``ax.view_init`` (``elev``, ``azim``, ``vertical_axis``).
     **state
@@ -272,7 +272,10 @@ def _states(source, strategies, shape) -> list[State]:
         return [_state("", source, strategies, shape)]
     if not source:
         raise InputError("the dict of variants is empty; pass at least one entry, such as a Hierarchy.")
-    states = [_state(str(label), thing, strategies, shape) for label, thing in source.items()]
+    around = shape if isinstance(shape, Mapping) else dict.fromkeys(source, shape)
+    if missing := [label for label in source if label not in around]:
+        raise InputError(f"the dict of shapes has no entry {missing[0]!r}; pass one for each variant.")
+    states = [_state(str(label), thing, strategies, around[label]) for label, thing in source.items()]
     first = states[0]
     for state in states:
         if state.names != first.names or state.skeleton.dimension != first.skeleton.dimension:
