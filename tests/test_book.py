@@ -35,6 +35,12 @@ def has_picture(cell: dict) -> bool:
     return any(kind.startswith("image/") for output in cell["outputs"] for kind in output.get("data", {}))
 
 
+def interactive(cell: dict) -> str:
+    """The HTML of the viewer or explorer that a cell shows; nothing for other cells."""
+    pages = ["".join(output.get("data", {}).get("text/html", "")) for output in cell["outputs"]]
+    return "".join(page for page in pages if re.search(r'class="psl-(?:viewer|explorer)"', page))
+
+
 def test_book_and_folder_name_the_same_chapters():
     found = [path.stem for path in (ROOT / "notebooks").glob("*") if path.suffix in (".ipynb", ".md")]
     assert sorted(chapters_of_book()) == sorted(found)
@@ -71,6 +77,21 @@ class TestChapter:
             assert metadata.get("figure", {}).get("caption", "").strip(), f"no caption:\n{text(cell)}"
             assert metadata["figure"].get("name", "").startswith("fig-"), f"no name fig-...:\n{text(cell)}"
             assert len(cell["outputs"]) == 1, f"prints beside its picture (end it with ;):\n{text(cell)}"
+
+    def test_every_interactive_picture_has_alternative_text_and_says_what_to_look_for(self, path):
+        for cell in cells(path, "code"):
+            page = interactive(cell)
+            if "explore.viewer(" in text(cell):  # explorers give these to the viewers in them themselves
+                assert re.search(r"\balt\b", text(cell)), f"a viewer without alt=:\n{text(cell)}"
+                assert re.search(r"\blook\b", text(cell)), f"a viewer without look=:\n{text(cell)}"
+            if page:
+                assert re.search(r'(?:aria-label|alt)="[^"]{20}', page), f"no alternative text:\n{text(cell)}"
+                assert text(cell).startswith("# NBVAL_IGNORE_OUTPUT\n"), text(cell)
+                assert len(cell["outputs"]) == 1, f"prints beside its picture:\n{text(cell)}"
+                live = [
+                    kind for output in cell["outputs"] for kind in output["data"] if "widget-view" in kind
+                ]
+                assert not live, "a live widget is stored: use tools/run_notebooks.py"
 
     def test_every_caption_has_its_picture(self, path):
         captioned = [cell for cell in cells(path, "code") if "figure" in cell["metadata"].get("mystnb", {})]
