@@ -210,3 +210,17 @@ def test_the_viewers_of_a_chapter(visit, book, name):
     assert plain.locator(".psl-strip").count() == opened.page.locator(".psl-viewer").count()
     for picture in plain.locator(".psl-strip img").all():
         assert picture.is_visible()
+
+
+def test_a_skeleton_with_fewer_vertices_leaves_its_shape_whole(visit, tmp_path):
+    shape = psl.datasets.load("leaf").resample(70, 0.5)
+    skeletons = [psl.sk2(shape), psl.sk0(shape)]
+    assert len(skeletons[0].vertices) < len(skeletons[1].vertices)
+    views = []
+    for skeleton in skeletons:
+        picture = explore.viewer(skeleton, shape=shape, alt="A leaf.", edges=False)
+        picture.save(tmp_path / "leaf.html")
+        opened = visit(tmp_path.as_uri(), "leaf.html")
+        views.append(pixels(opened.page))
+        opened.assert_quiet()
+    assert changed(*views) < 0.001
