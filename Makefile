@@ -48,7 +48,7 @@ chapters: $(VENV)/.installed  ## run every notebook and compare with what is sto
 
 browser: book  ## every page, the viewer and the explorers in Chromium (skipped where there is none)
 	@echo "Pages, viewer and explorers in Chromium ..."
-	@BOOK=$(CURDIR)/_build/html $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup -rs tests/browser
+	@BOOK=$(CURDIR)/_build/html $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup tests/browser
 
 lab: $(VENV)/.installed  ## open the first chapter in JupyterLab
 	$(BIN)/jupyter lab $(FIRST)

@@ -34,6 +34,7 @@ FLAGS = [
     ),  # it calls nobody itself
     *("--disable-quic", "--no-first-run"),
 ]
+WITHOUT = "Chromium is not installed, so nothing was tried in a browser (Debian: apt-get install chromium)."
 PATIENCE = 30_000  # milliseconds before a step that never comes counts as failed
 
 
@@ -44,19 +45,25 @@ def pages() -> list[str]:
     return [toc["root"], *chapters, "genindex", "search"]
 
 
+def chromium() -> str | None:
+    return next(filter(None, map(shutil.which, PROGRAMS)), None)
+
+
+def pytest_terminal_summary(terminalreporter) -> None:
+    if chromium() is None:
+        terminalreporter.write_line(WITHOUT)
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator["Browser"]:
     """One Chromium for the whole run; where there is none the test is skipped and says why."""
-    program = next(filter(None, map(shutil.which, PROGRAMS)), None)
-    if program is None:
-        pytest.skip(
-            "Chromium is not installed, so nothing was tried in a browser (Debian: apt-get install chromium)."
-        )
+    if (program := chromium()) is None:
+        pytest.skip(WITHOUT)
     playwright = pytest.importorskip("playwright.sync_api", reason="The package playwright is not installed.")
     with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=program, args=FLAGS, timeout=2 * PATIENCE)
-        yield chromium
-        chromium.close()
+        running = driver.chromium.launch(executable_path=program, args=FLAGS, timeout=2 * PATIENCE)
+        yield running
+        running.close()
 
 
 @pytest.fixture(scope="session")
