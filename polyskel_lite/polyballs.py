@@ -22,10 +22,10 @@ from .ball_skeletons import Boundary, ball_skeleton
 from .ball_volumes import surface_area, volume
 from .complexes import Skeleton
 from .discs import TURN, Arcs, DiscBoundary, disc_boundary, distance_to_arcs
-from .errors import InputError, TangentBallsError
+from .errors import InputError, TangentBallsError, TessellationError
 from .power import PowerTriangulation, power_triangulation
 from .predicates import as_points
-from .spheres import SphereBoundary, sphere_boundary
+from .spheres import SphereBoundary, verified_boundary
 
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
 # discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
@@ -340,7 +340,8 @@ class Polyball:
         InputError
             If the statement is unknown.
         TessellationError
-            If singular points crowd together, millions of times closer than the balls are large.
+            If so many balls nearly coincide that rounding hides the boundary, or singular points crowd
+            together, millions of times closer than the balls are large.
 
         Notes
         -----
@@ -367,6 +368,11 @@ class Polyball:
                 f"balls {i} and {j} touch without crossing, which appendix A leaves out: the skeleton of the "
                 "union would be cut there; enlarge or shrink one of them a little.",
                 pairs,
+            )
+        if self.dimension == 3 and not self._boundary.sound:
+            raise TessellationError(
+                "too many of these balls nearly coincide, as around samples that lie on one sphere, and "
+                "rounding hides which of them are on the boundary; leave out balls that are almost equal."
             )
         alone, bridges = self._exposed, self._bridges
         if statement == "as printed":
@@ -511,7 +517,12 @@ class Polyball:
 
     @cached_property
     def _power(self) -> PowerTriangulation:
-        return power_triangulation(*self._balls)
+        return power_triangulation(*self._balls) if self.dimension == 2 else self._in_space[0]
+
+    @cached_property
+    def _in_space(self) -> tuple[PowerTriangulation, SphereBoundary]:
+        centers, radii = self.centers[self._rows], self.radii[self._rows]
+        return verified_boundary(centers, radii, power_triangulation(*self._balls))
 
     @cached_property
     def _boundary(self) -> DiscBoundary | SphereBoundary:
@@ -521,7 +532,7 @@ class Polyball:
             crowded = pair_bound(centers, radii) > _PAIRS
             found = disc_boundary(centers, radii, self._power if crowded else None)
         else:
-            found = sphere_boundary(centers, radii, self._power)
+            found = self._in_space[1]
             circles = found.circles._replace(centers=found.circles.centers - self._origin)
             found = found._replace(circles=circles)
         return found._replace(corners=found.corners - self._origin)

@@ -34,6 +34,9 @@ class PowerTriangulation(NamedTuple):
         The points of equal power to all corners: vertices of the power diagram.
     count : int
         k: indices from k on are ghosts.
+    found : tuple of (p, 2) and (q, 3) int arrays
+        Sorted pairs and triples to look at besides, because Qhull, which merges what is flat within rounding,
+        may have lost them; see `polyskel_lite.spheres.verified_boundary`.
     """
 
     points: np.ndarray
@@ -41,6 +44,7 @@ class PowerTriangulation(NamedTuple):
     neighbors: np.ndarray
     orthocenters: np.ndarray
     count: int
+    found: tuple = (np.zeros((0, 2), dtype=np.int64), np.zeros((0, 3), dtype=np.int64))
 
     def real(self) -> np.ndarray:
         """Which simplices have no ghost, (t,) bool array.
@@ -69,7 +73,11 @@ class PowerTriangulation(NamedTuple):
         corners = self.simplices.shape[1]
         columns = list(combinations(range(corners), size))
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
-        return unique_rows(rows[rows[:, -1] < self.count], self.count)[0]
+        rows = rows[rows[:, -1] < self.count]
+        more = {1: self.found[0].reshape(-1, 1), 2: self.found[0], 3: self.found[1]}
+        if len(more[size]):
+            rows = np.concatenate([rows, more[size]])
+        return unique_rows(rows, self.count)[0]
 
 
 def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangulation:

@@ -77,3 +77,17 @@ def test_delaunay_balls_a_little_too_large(n, growth):
     small = t.circumradii < 2.5
     centers, radii = t.circumcenters[small], t.circumradii[small] * (1 + growth)
     assert psl.Polyball(centers, radii).skeleton().betti() == betti(centers, radii)
+
+
+def test_delaunay_balls_that_qhull_loses():
+    """Of 5,454 balls Qhull loses some that show on the boundary; they are looked for and found."""
+    Y = psl.delaunay_balls(psl.implicit.solid(psl.implicit.torus(), n=1000))
+    assert len(Y._power.found[0])
+    assert Y.skeleton().betti() == (1, 1, 0)
+
+
+def test_too_many_nearly_equal_balls_are_refused():
+    """Samples on one sphere: the balls around them differ by rounding only."""
+    Y = psl.delaunay_balls(psl.implicit.solid(psl.implicit.capsule(), n=300))
+    with pytest.raises(psl.TessellationError, match="too many of these balls nearly coincide"):
+        Y.skeleton()
