@@ -11,10 +11,12 @@ time of the processor when the machine has other work: both are given, with the 
 
 from __future__ import annotations
 
+import csv
 import os
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
@@ -150,19 +152,28 @@ def milliseconds(explorer, action: Callable) -> np.ndarray:
 def main(prefix: str = "") -> None:
     """Print the table: medians on the clock and, in brackets, of the processor."""
     names = psl.datasets.names()
+    rows = [["explorer", *names, "slowest"]]
     print(f"{'ms, clock (processor)':36}" + "".join(f"{name:>12}" for name in names))
     slowest = np.zeros(2)
     for title, factory, action in CASES:
         if not title.startswith(prefix):
             continue
-        cells = []
+        cells, row, longest = [], [title], 0.0
         for name in names:
             times = milliseconds(factory(name), action)
             slowest = np.maximum(slowest, times.max(axis=1))
             cells.append("{:.0f} ({:.0f})".format(*np.median(times, axis=1)))
+            row.append(f"{np.median(times[0]):.1f}")
+            longest = max(longest, times[0].max())
+        rows.append([*row, f"{longest:.0f}"])
         print(f"{title:36}" + "".join(f"{cell:>12}" for cell in cells), flush=True)
     load = f"; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores" if hasattr(os, "getloadavg") else ""
     print("slowest movement: {:.0f} ms on the clock, {:.0f} ms of the processor{}".format(*slowest, load))
+    if not prefix:
+        with open(
+            Path(__file__).resolve().parent / "explorers.csv", "w", newline="", encoding="utf-8"
+        ) as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ the next (median, longest) while the reader turns it, moves the threshold, or si
 from __future__ import annotations
 
 import argparse
+import csv
 import statistics
 import tempfile
 from pathlib import Path
@@ -76,7 +77,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--polygons", type=int, nargs="+", default=[5_000, 50_000])
     parser.add_argument("--browser", default="/usr/bin/chromium", help="Chromium to run")
+    parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parent / "viewer.csv")
     options = parser.parse_args()
+    rows = []
     print("polygons  page kB  first ms  turn ms (max)  threshold ms (max)  simplify ms (max)")
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
         browser = playwright.chromium.launch(executable_path=options.browser, args=FLAGS)
@@ -92,7 +95,18 @@ def main() -> None:
                 for name in ("turn", "threshold", "simplify")
             )
             print(f"{shown:8,}  {path.stat().st_size / 1e3:7.0f}  {times['first'][0]:8.0f}  {moves}")
+            rows.append(
+                {"polygons": shown, "page_kb": round(path.stat().st_size / 1e3), "first": times["first"][0]}
+                | {
+                    name: round(statistics.median(times[name]), 1)
+                    for name in ("turn", "threshold", "simplify")
+                }
+            )
         browser.close()
+    with open(options.out, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 if __name__ == "__main__":
