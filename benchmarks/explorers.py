@@ -170,9 +170,8 @@ def main(prefix: str = "") -> None:
     load = f"; load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores" if hasattr(os, "getloadavg") else ""
     print("slowest movement: {:.0f} ms on the clock, {:.0f} ms of the processor{}".format(*slowest, load))
     if not prefix:
-        with open(
-            Path(__file__).resolve().parent / "explorers.csv", "w", newline="", encoding="utf-8"
-        ) as file:
+        path = Path(__file__).resolve().parent / "explorers.csv"
+        with open(path, "w", newline="", encoding="utf-8") as file:
             csv.writer(file, lineterminator="\n").writerows(rows)
 
 
