@@ -17,6 +17,7 @@ PRECISION = 1e-12
 # However badly conditioned, no crossing is off by more than this share of the smaller radius.
 WORST = 1e-6
 ROUNDING = 8 * np.finfo(float).eps
+CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
 
 
 def lengths(vectors: np.ndarray) -> np.ndarray:
@@ -30,14 +31,19 @@ def rounding(centers, radii, i, j) -> np.ndarray:
     return ROUNDING * (size[i] + size[j])
 
 
+def octaves(radii) -> list[np.ndarray]:
+    """The balls in groups whose radii differ by less than a factor of two, to share a search radius."""
+    octave = np.frexp(radii)[1]
+    return [np.flatnonzero(octave == value) for value in np.unique(octave)]
+
+
 def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
     """All pairs i < j of balls that meet, and those that miss each other only by rounding.
 
     A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
     that few pairs too many are looked at, however unequal the balls are.
     """
-    octave = np.frexp(radii)[1]
-    groups = [np.flatnonzero(octave == value) for value in np.unique(octave)]
+    groups = octaves(radii)
     trees = [cKDTree(centers[group]) for group in groups]
     found_i, found_j = [], []
     for a in range(len(groups)):
@@ -56,8 +62,7 @@ def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
 
 def pair_bound(centers, radii) -> int:
     """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
-    octave = np.frexp(radii)[1]
-    groups = [np.flatnonzero(octave == value) for value in np.unique(octave)]
+    groups = octaves(radii)
     trees = [cKDTree(centers[group]) for group in groups]
     return sum(
         int(trees[a].count_neighbors(trees[b], radii[groups[a]].max() + radii[groups[b]].max()))
@@ -83,6 +88,40 @@ def touching(centers, radii, i, j) -> np.ndarray:
     return gap >= -PRECISION * np.minimum(radii[i], radii[j]) - rounding(centers, radii, i, j)
 
 
+def in_any(points, centers, radii) -> np.ndarray:
+    """Which points lie in one of the closed balls, (m,) bool array."""
+    inside = np.zeros(len(points), dtype=bool)
+    # Large balls first: they settle most points, and only the others are asked again.
+    order = np.argsort(-radii, kind="stable")
+    step = max(1, CHUNK // max(1, len(points)))
+    for first in range(0, len(order), step):
+        balls, left = order[first : first + step], np.flatnonzero(~inside)
+        square = sum(
+            np.square(points[left, None, axis] - centers[balls, axis]) for axis in range(points.shape[1])
+        )
+        inside[left] = (square <= np.square(radii[balls])).any(axis=1)
+    return inside
+
+
+def circle_offset(d, r, other):
+    """How far from the centre of the ball of radius r, towards the other one, the two spheres cross.
+
+    Examples
+    --------
+    >>> circle_offset(5.0, 3.0, 4.0)
+    1.8
+    """
+    return (d + (r - other) * (r + other) / d) / 2
+
+
+def frames(axes: np.ndarray) -> np.ndarray:
+    """For each unit axis two unit vectors across it and the axis itself, right-handed, (m, 3, 3)."""
+    # The coordinate axis most across gives the first direction.
+    x = np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)])
+    x /= lengths(x)[:, None]
+    return np.stack([x, np.cross(axes, x), axes], axis=1)
+
+
 def crossings(centers, radii, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Where the spheres of crossing pairs meet: centres (m, N), radii (m,), unit axes (m, N) of the circles.
 
@@ -92,7 +131,7 @@ def crossings(centers, radii, pairs) -> tuple[np.ndarray, np.ndarray, np.ndarray
     across = centers[j] - centers[i]
     d = lengths(across)
     axis = across / d[:, None]
-    along = (d + (radii[i] - radii[j]) * (radii[i] + radii[j]) / d) / 2
+    along = circle_offset(d, radii[i], radii[j])
     # Heron's product instead of r² - a²: near tangency the difference would lose half of the digits.
     product = (radii[i] + radii[j] + d) * (radii[i] + radii[j] - d)
     product *= (d + radii[i] - radii[j]) * (d - radii[i] + radii[j])

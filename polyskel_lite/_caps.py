@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._ball_pairs import lengths, swallowed, touching
+from ._ball_pairs import circle_offset, lengths, swallowed, touching
 from .power import PowerTriangulation
 
 
@@ -65,14 +65,3 @@ def caps(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> C
     order = np.lexsort((heights, i))
     first = np.searchsorted(i[order], np.arange(len(radii) + 1))
     return Caps(first, (across / d[:, None])[order], heights[order])
-
-
-def circle_offset(d: np.ndarray, r: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """How far from the centre of the ball of radius r, towards the other one, the two spheres cross.
-
-    Examples
-    --------
-    >>> circle_offset(5.0, 3.0, 4.0)
-    1.8
-    """
-    return (d + (r - other) * (r + other) / d) / 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ._ball_pairs import octaves
 from .topology import components
 
 # A singular point is on every sphere that it misses by less than this share of the radius.
@@ -32,10 +33,8 @@ class Incidence:
         self.count = len(radii)
         slack = FAR * np.abs(origin).max() + (np.zeros(len(corners)) if spread is None else spread)
         point, ball = [], []
-        octave = np.frexp(radii)[1]
         tree = cKDTree(corners)
-        for value in np.unique(octave):
-            group = np.flatnonzero(octave == value)
+        for group in octaves(radii):
             near = cKDTree(centers[group]).sparse_distance_matrix(
                 tree, radii[group].max() * (1 + 2 * ON) + slack.max(initial=0), output_type="ndarray"
             )

@@ -46,6 +46,18 @@ class Polygons(Sequence):
     def __len__(self) -> int:
         return len(self.sizes)
 
+    def sides(self) -> np.ndarray:
+        """The sides of all polygons one after the other, (s, 2).
+
+        Examples
+        --------
+        >>> Polygons.of([[0, 1, 2, 3]]).sides().tolist()
+        [[0, 1], [1, 2], [2, 3], [3, 0]]
+        """
+        after = np.arange(1, len(self.corners) + 1)
+        after[self._ends - 1] = self._ends - self.sizes
+        return np.column_stack([self.corners, self.corners[after]])
+
     def __getitem__(self, k):
         if isinstance(k, slice):
             return [self[i] for i in range(*k.indices(len(self)))]

@@ -21,7 +21,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ._caps import Caps, caps
 from .errors import InputError
 from .power import PowerTriangulation
-from .spheres import SphereBoundary, sphere_boundary
+from .spheres import SphereBoundary
 
 _EDGE = np.arctan(2)  # of the icosahedron in the unit sphere, as an angle
 _COARSEST = 2  # edges of the icosahedron are cut into so many at least: 42 vertices on a whole sphere
@@ -33,7 +33,7 @@ def patches(
     centers: np.ndarray,
     radii: np.ndarray,
     power: PowerTriangulation,
-    boundary: SphereBoundary | None = None,
+    boundary: SphereBoundary,
     fineness: float = 0.03,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangulate the boundary of a union of balls.
@@ -44,8 +44,8 @@ def patches(
     radii : (k,) float array
         No two balls equal.
     power : PowerTriangulation
-    boundary : SphereBoundary, optional
-        Both of the same balls; the boundary is computed if it is not given.
+    boundary : SphereBoundary
+        Both of the same balls.
     fineness : float
         Length of the edges as a share of the longest side of the box around all balls. However small a ball
         is in the whole, its edges span about half a radian at most.
@@ -80,8 +80,10 @@ def patches(
     --------
     >>> import numpy as np
     >>> from polyskel_lite.power import power_triangulation
+    >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> vertices, triangles, ball = patches(centers, radii, power_triangulation(centers, radii))
+    >>> power = power_triangulation(centers, radii)
+    >>> vertices, triangles, ball = patches(centers, radii, power, sphere_boundary(centers, radii, power))
     >>> edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     >>> len(vertices) - len(edges) + len(triangles)
     2
@@ -90,8 +92,6 @@ def patches(
     """
     if not fineness > 0:
         raise InputError(f"fineness is {fineness}: pass a share of the size of the whole, such as 0.03.")
-    if boundary is None:
-        boundary = sphere_boundary(centers, radii, power)
     size = ((centers + radii[:, None]).max(axis=0) - (centers - radii[:, None]).min(axis=0)).max()
     parts = np.maximum(np.ceil(_EDGE * radii / (fineness * size)).astype(np.int64), _COARSEST)
     rims = _rims(boundary, radii * _EDGE / parts)

@@ -24,15 +24,19 @@ from .errors import TessellationError
 from .power import PowerTriangulation, regular_triangulation
 from .topology import components
 
-# Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one.
+# Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one,
+# and a vertex is known to some 1e-12 of its radius times what thin simplices lose.
 _SAME = 1e-9
 # Cospherical points are triangulated as if lifted by up to this share of the squared distance to the next.
 # Far more than rounding, so that cells around one Voronoi vertex never contain flat simplices.
 _LIFT = 1e-6
 # A polygon narrower than this share of its length is a line.
 _FLAT = 1e-8
-# A vector that misses a cone by less than this share of its length is in it.
+# A vector that misses a cone by less than this share of its length is on its border, and the cone is closed:
+# corners are known to some 1e-12 of their balls, and directions to them lose up to three more digits.
 _CONE = 1e-9
+# Corners of a simplex, or directions to centres, this near to one plane fix no point in it.
+_PLANE = 1e-12
 
 
 class Boundary(NamedTuple):
@@ -107,7 +111,7 @@ def ball_skeleton(centers, radii, boundary: Boundary, origin) -> Skeleton:
         if n == 3:
             sheets = _faces(t, label, on, boundary.exposed, 2)
             polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
-            edges += [flat, _sides(polygons)]
+            edges += [flat, polygons.sides()]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
     used = np.zeros(len(vertices), dtype=bool)
     used[: len(radii)] = boundary.alone
@@ -172,7 +176,7 @@ def _distance(points, pairs) -> np.ndarray:
 def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
     """Centres and radii of the balls through the corners (m, N+1, N) of simplices."""
     legs = corners[:, 1:] - corners[:, :1]
-    flat = np.abs(np.linalg.det(legs)) <= 1e-12 * np.prod(np.sqrt((legs**2).sum(axis=2)), axis=1)
+    flat = np.abs(np.linalg.det(legs)) <= _PLANE * np.prod(np.sqrt((legs**2).sum(axis=2)), axis=1)
     legs[flat] = np.eye(corners.shape[2])
     place = corners[:, 0] + np.linalg.solve(legs, (legs**2).sum(axis=2)[:, :, None])[:, :, 0] / 2
     place[flat] = fallback[flat]
@@ -193,12 +197,12 @@ def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
         towards = centers[own[p]] - corners[p][:, None]
         towards /= np.sqrt((towards**2).sum(axis=2, keepdims=True))
         offset = place - corners[p]
-        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > 1e-12)
+        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
         towards[~clear] = np.eye(n)
         share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
         margin = np.where(clear, share / np.sqrt((offset**2).sum(axis=1)), 0)
         better = np.abs(margin) > clearest
-        inside[better], clearest[better] = margin[better] > -_SAME, np.abs(margin[better])
+        inside[better], clearest[better] = margin[better] > -_CONE, np.abs(margin[better])
     # Where more than N balls meet in every corner, look for the combination itself.
     for row in np.flatnonzero(clearest < _FLAT):
         inside[row] = all(
@@ -233,21 +237,21 @@ def _chains(faces: _Faces, vertices) -> np.ndarray:
     face, vertex = faces.face, faces.vertex
     if not len(face):
         return np.zeros((0, 2), dtype=np.int64)
-    along = np.einsum("mi,mi->m", vertices[vertex], _directions(face, vertices[vertex]))
+    offset, direction, _ = _about_middle(face, vertices[vertex])
+    along = np.einsum("mi,mi->m", offset, direction)
     order = np.lexsort((along, face))
     face, vertex = face[order], vertex[order]
     joined = face[1:] == face[:-1]
     return np.column_stack([vertex[:-1], vertex[1:]])[joined]
 
 
-def _directions(face, places) -> np.ndarray:
-    """For each row the vector from the middle of its face to the farthest place on it."""
+def _about_middle(face, places) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places seen from the middle of their face, the farthest of the face for each row, sizes of faces."""
     first = np.flatnonzero(np.diff(face, prepend=-1))
     size = np.diff(first, append=len(face))
     offset = places - np.repeat(np.add.reduceat(places, first) / size[:, None], size, axis=0)
-    far = (offset**2).sum(axis=1)
-    farthest = np.lexsort((far, face))[np.cumsum(size) - 1]
-    return np.repeat(offset[farthest], size, axis=0)
+    farthest = np.lexsort(((offset**2).sum(axis=1), face))[np.cumsum(size) - 1]
+    return offset, np.repeat(offset[farthest], size, axis=0), size
 
 
 def _ring_places(t, label, faces: _Faces) -> np.ndarray:
@@ -274,11 +278,8 @@ def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.nda
     face, vertex = faces.face, faces.vertex
     if not len(face):
         return Polygons(), np.zeros((0, 2), dtype=np.int64)
-    places = vertices[vertex]
-    first = np.flatnonzero(np.diff(face, prepend=-1))
-    size = np.diff(first, append=len(face))
-    offset = places - np.repeat(np.add.reduceat(places, first) / size[:, None], size, axis=0)
-    x = _directions(face, places)
+    offset, x, size = _about_middle(face, vertices[vertex])
+    first = np.cumsum(size) - size
     normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
     y = np.cross(normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)), x)
     along, across = np.einsum("mi,mi->m", offset, x), np.einsum("mi,mi->m", offset, y)
@@ -292,13 +293,3 @@ def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.nda
     order = np.lexsort((turn[solid], face[solid]))
     ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
     return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)
-
-
-def _sides(polygons: Polygons) -> np.ndarray:
-    """The sides of all polygons, (e, 2)."""
-    after = np.arange(1, len(polygons.corners) + 1)
-    ends = np.cumsum(polygons.sizes)
-    after[ends - 1] = ends - polygons.sizes
-    return (
-        np.column_stack([polygons.corners, polygons.corners[after]]) if len(after) else np.zeros((0, 2), int)
-    )

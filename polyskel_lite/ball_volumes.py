@@ -28,11 +28,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._ball_pairs import lengths
+from ._ball_pairs import frames
 from ._caps import Caps, caps
 from .discs import Arcs, Covers, uncovered
 from .power import PowerTriangulation
-from .spheres import SphereBoundary, sphere_boundary
+from .spheres import SphereBoundary
 
 _WHOLE = 4 * np.pi
 _TOUCH = 1e-12  # circles this near to each other, on the unit sphere, touch or are the same
@@ -45,7 +45,7 @@ _POLES = np.column_stack([_POLES.T, _HEIGHT])
 
 
 def surface_area(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary | None = None
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
 ) -> float:
     """Compute the area of the boundary of a union of balls, walls of cavities included.
 
@@ -55,8 +55,8 @@ def surface_area(
     radii : (k,) float array
         No two balls equal.
     power : PowerTriangulation
-    boundary : SphereBoundary, optional
-        Both of the same balls; the boundary is computed if it is not given.
+    boundary : SphereBoundary
+        Both of the same balls.
 
     Returns
     -------
@@ -75,17 +75,17 @@ def surface_area(
 
     >>> import numpy as np
     >>> from polyskel_lite.power import power_triangulation
+    >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> round(surface_area(centers, radii, power_triangulation(centers, radii)) / np.pi, 12)
+    >>> power = power_triangulation(centers, radii)
+    >>> round(surface_area(centers, radii, power, sphere_boundary(centers, radii, power)) / np.pi, 12)
     6.0
     """
-    if boundary is None:
-        boundary = sphere_boundary(centers, radii, power)
     return float(patch_areas(centers, radii, power, boundary)[0].sum())
 
 
 def volume(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary | None = None
+    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
 ) -> float:
     """Compute the volume of a union of balls.
 
@@ -95,8 +95,8 @@ def volume(
     radii : (k,) float array
         No two balls equal.
     power : PowerTriangulation
-    boundary : SphereBoundary, optional
-        Both of the same balls; the boundary is computed if it is not given.
+    boundary : SphereBoundary
+        Both of the same balls.
 
     Returns
     -------
@@ -113,12 +113,13 @@ def volume(
 
     >>> import numpy as np
     >>> from polyskel_lite.power import power_triangulation
+    >>> from polyskel_lite.spheres import sphere_boundary
     >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> round(volume(centers, radii, power_triangulation(centers, radii)) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
+    >>> power = power_triangulation(centers, radii)
+    >>> boundary = sphere_boundary(centers, radii, power)
+    >>> round(volume(centers, radii, power, boundary) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
     (2.25, 2.25)
     """
-    if boundary is None:
-        boundary = sphere_boundary(centers, radii, power)
     areas, normals = patch_areas(centers, radii, power, boundary)
     places = centers - (centers.min(axis=0) + centers.max(axis=0)) / 2
     return float((radii * areas + (places * normals).sum(axis=1)).sum() / 3)
@@ -159,7 +160,7 @@ def patch_areas(
     covered = caps(centers, radii, power)
     row, start, end = _arcs(covered)
     ball = _balls(covered)[row]
-    x, y, axis = (frame[row] for frame in _frames(covered.axes))
+    x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
     h = covered.heights[row]
     s = np.sqrt(np.maximum(1 - h**2, 0))
     swing = (np.sin(end) - np.sin(start))[:, None] * x - (np.cos(end) - np.cos(start))[:, None] * y
@@ -192,13 +193,6 @@ def _balls(covered: Caps) -> np.ndarray:
     return np.repeat(np.arange(len(covered.first) - 1), np.diff(covered.first))
 
 
-def _frames(axes) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Two unit vectors across each axis, and the axis."""
-    x = np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)])
-    x /= lengths(x)[:, None]
-    return x, np.cross(axes, x), axes
-
-
 def _arcs(covered: Caps) -> Arcs:
     """The arcs of the edge of each cap that no other cap of its sphere covers.
 
@@ -211,7 +205,7 @@ def _arcs(covered: Caps) -> Arcs:
     begin = np.cumsum(degree[ball]) - degree[ball]
     other = np.arange(len(row)) - begin[row] + covered.first[ball[row]]
     row, other = row[row != other], other[row != other]
-    x, y, axis = _frames(covered.axes)
+    x, y, axis = frames(covered.axes).swapaxes(0, 1)
     s = np.sqrt(np.maximum(1 - covered.heights**2, 0))
     to = covered.axes[other]
     u, v, c = ((frame[row] * to).sum(axis=1) for frame in (x, y, axis))

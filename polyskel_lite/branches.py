@@ -117,25 +117,9 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
     if not len(skeleton.polygons):
         return np.arange(len(skeleton.edges))
     n = len(skeleton.vertices)
-    sides = polygon_sides(skeleton)
+    sides = skeleton.polygons.sides()
     key = np.sort(skeleton.edges, axis=1) @ np.array([n, 1])
     return np.flatnonzero(~np.isin(key, np.sort(sides, axis=1) @ np.array([n, 1])))
-
-
-def polygon_sides(skeleton: Skeleton) -> np.ndarray:
-    """The sides of all polygons one after the other, (s, 2).
-
-    Examples
-    --------
-    >>> square = Skeleton(np.zeros((4, 3)), np.ones(4), np.arange(4), np.zeros((0, 2), int), [[0, 1, 2, 3]])
-    >>> polygon_sides(square).tolist()
-    [[0, 1], [1, 2], [2, 3], [3, 0]]
-    """
-    corners, sizes = skeleton.polygons.corners, skeleton.polygons.sizes
-    after = np.arange(1, len(corners) + 1)
-    ends = np.cumsum(sizes)
-    after[ends - 1] = ends - sizes
-    return np.stack([corners, corners[after]], axis=1)
 
 
 def _sheet_of(skeleton: Skeleton):
@@ -146,7 +130,7 @@ def _sheet_of(skeleton: Skeleton):
     node = np.full(n, -1)
     if not len(skeleton.polygons):
         return node, []
-    _, label = components(n, polygon_sides(skeleton))
+    _, label = components(n, skeleton.polygons.sides())
     on = np.unique(skeleton.polygons.corners)
     _, node[on] = np.unique(label[on], return_inverse=True)
     return node, [np.flatnonzero(node == s) for s in range(node.max() + 1)]

@@ -144,5 +144,4 @@ def _contained(t, skeleton, Y: Polyball) -> np.ndarray:
     rejected = np.flatnonzero(rejected)
     rejected = rejected[Y.contains(t.circumcenters[rejected])]
     radii = t.circumradii[rejected]
-    # A rejected ball of the same place and size as a kept one (cocircular samples) is that ball.
     return rejected[Y.boundary_distance(t.circumcenters[rejected]) >= radii * (1 - _OFF)]

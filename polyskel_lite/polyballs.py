@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from ._ball_distance import distance_to_boundary
-from ._ball_pairs import crossings, pair_bound
+from ._ball_pairs import crossings, in_any, pair_bound
 from ._generating import distinct, isolated_lenses, lonely, needed
 from ._incidence import Incidence
 from .ball_patches import patches
@@ -30,7 +30,6 @@ from .spheres import SphereBoundary, verified_boundary
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
 # discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
 _PAIRS = 10_000_000
-_CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,18 +119,7 @@ class Polyball:
         array([ True, False])
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
-        inside = np.zeros(len(queries), dtype=bool)
-        # Large balls first: they settle most points, and only the others are asked again.
-        order = np.argsort(-self.radii, kind="stable")
-        step = max(1, _CHUNK // max(1, len(queries)))
-        for first in range(0, len(order), step):
-            balls, left = order[first : first + step], np.flatnonzero(~inside)
-            square = sum(
-                np.square(queries[left, None, axis] - self.centers[balls, axis])
-                for axis in range(self.dimension)
-            )
-            inside[left] = (square <= np.square(self.radii[balls])).any(axis=1)
-        return inside
+        return in_any(queries, self.centers, self.radii)
 
     def arcs(self) -> Arcs:
         """List the circular arcs that make up the boundary of a planar polyball.

@@ -12,7 +12,19 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.spatial import cKDTree
 
-from ._ball_pairs import PRECISION, ROUNDING, crossings, lengths, meeting_pairs, rounding, swallowed, touching
+from ._ball_pairs import (
+    PRECISION,
+    ROUNDING,
+    crossings,
+    frames,
+    in_any,
+    lengths,
+    meeting_pairs,
+    octaves,
+    rounding,
+    swallowed,
+    touching,
+)
 from ._rows import unique_rows
 from .discs import TURN, Arcs, Covers, merged, uncovered
 from .power import PowerTriangulation
@@ -148,10 +160,8 @@ def _all_around(balls, i, j, count: int) -> tuple[np.ndarray, np.ndarray] | None
 def _deepest(places, centers, radii) -> tuple[np.ndarray, np.ndarray]:
     """The places that are inside a ball, beyond rounding, and the ball in which each is deepest."""
     depth, ball = np.zeros(len(places)), np.full(len(places), -1)
-    octave = np.frexp(radii)[1]
     tree = cKDTree(places)
-    for value in np.unique(octave):
-        group = np.flatnonzero(octave == value)
+    for group in octaves(radii):
         near = cKDTree(centers[group]).sparse_distance_matrix(tree, radii[group].max(), output_type="ndarray")
         inside = 1 - near["v"] / radii[group[near["i"]]]
         order = np.argsort(inside)
@@ -203,7 +213,7 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     exposed[circles.pairs[keep]] = True
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
-    whole[whole] = ~strictly_inside(centers[whole] + radii[whole, None] * _POLE, centers, radii, 1e-9)
+    whole[whole] = ~strictly_inside(centers[whole] + radii[whole, None] * _POLE, centers, radii, _INSIDE)
     circles = Circles(*(values[keep] for values in circles))
     pairs = np.column_stack([i, j])[live & touch]
     pairs = _in_contact(centers, radii, pairs)
@@ -216,6 +226,8 @@ _WORST = 1e-4
 _DEEP = 1e-4
 _ROUNDS = 6
 _TRIPLES = 20_000_000  # rows of the table of triples: above, memory and patience end
+# A place on a sphere is under another ball if it is in it by more than this share: some thousand roundings.
+_INSIDE = 1e-9
 _POLE = np.array([0.48, 0.6, 0.64])
 
 
@@ -228,16 +240,7 @@ def strictly_inside(points: np.ndarray, centers: np.ndarray, radii: np.ndarray, 
     >>> strictly_inside(np.array([(1.0, 0, 0), (0.5, 0, 0)]), np.zeros((1, 3)), np.ones(1), 1e-9).tolist()
     [False, True]
     """
-    inside = np.zeros(len(points), dtype=bool)
-    order = np.argsort(-radii, kind="stable")
-    step = max(1, 2_000_000 // max(1, len(points)))
-    for first in range(0, len(order), step):
-        balls, left = order[first : first + step], np.flatnonzero(~inside)
-        square = sum(
-            (points[left, None, axis] - centers[balls, axis]) ** 2 for axis in range(points.shape[1])
-        )
-        inside[left] = (square < (radii[balls] * (1 - margin)) ** 2).any(axis=1)
-    return inside
+    return in_any(points, centers, radii * (1 - margin))
 
 
 def _in_contact(centers, radii, pairs) -> np.ndarray:
@@ -247,15 +250,12 @@ def _in_contact(centers, radii, pairs) -> np.ndarray:
     pairs = pairs[apart <= PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)]
     i, j = pairs.T
     share = (radii[i] / (radii[i] + radii[j]))[:, None]
-    return pairs[~strictly_inside(centers[i] + share * (centers[j] - centers[i]), centers, radii, 1e-9)]
+    return pairs[~strictly_inside(centers[i] + share * (centers[j] - centers[i]), centers, radii, _INSIDE)]
 
 
 def _circles(centers, radii, pairs) -> Circles:
     middle, radius, axis = crossings(centers, radii, pairs)
-    # The coordinate axis most across gives the first direction.
-    x = np.cross(axis, np.eye(3)[np.abs(axis).argmin(axis=1)])
-    x /= lengths(x)[:, None]
-    return Circles(pairs, middle, radius, np.stack([x, np.cross(axis, x), axis], axis=1))
+    return Circles(pairs, middle, radius, frames(axis))
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:

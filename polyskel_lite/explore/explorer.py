@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import contextmanager
 
 import ipywidgets
@@ -80,9 +80,8 @@ class Explorer(ipywidgets.VBox):
         self.add_class("psl-explorer")  # board.js looks for it
         self.update()
 
-    def draw(self) -> None:
-        """Put everything on the board for the present controls and handles; subclasses say how."""
-        raise NotImplementedError
+    #: Puts everything on the board for the present controls and handles; every explorer says how.
+    draw: Callable[[], None]
 
     def update(self) -> None:
         """Draw anew, and send what changed to the browser in one message.

@@ -1,0 +1,123 @@
+"""The sentences under viewers and explorers: their numbers are computed here and looked for in the chapter.
+
+What stands beside a slider is no output of a cell, so nbval cannot hold it to what the reader will see.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+from polyskel_lite import explore, figures
+
+NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
+
+
+def assert_said(chapter, *sentences):
+    cells = json.loads((NOTEBOOKS / f"{chapter}.ipynb").read_text(encoding="utf-8"))["cells"]
+    text = " ".join(" ".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown").split())
+    for sentence in sentences:
+        assert sentence in text, f"{chapter} does not say: {sentence}"
+
+
+def ends(skeleton):
+    return int((np.bincount(skeleton.edges.ravel()) == 1).sum())
+
+
+def branches(hierarchy, *turns):
+    return [hierarchy.branches(turn * np.pi).graph["branches"] for turn in turns]
+
+
+@pytest.fixture(scope="module")
+def vertebra():
+    P = psl.delaunay_shape(psl.conform(psl.datasets.load("vertebra")))
+    return {strategy: psl.hierarchy(P, strategy) for strategy in ("surface", "wireframe")}
+
+
+def test_samples_of_the_horse():
+    X = psl.datasets.load("horse")
+    radius = [X.covering_radius(X.sample(n)) for n in (100, 200)]
+    assert_said("02_1_shapes", f"{radius[0]:.4f} at $n = 100$ and {radius[1]:.4f} at $n = 200$")
+
+
+def test_noise_of_the_sampling_explorer():
+    smooth = explore.sampling(psl.datasets.load("horse"), n=200)
+    before = ends(psl.sk2(smooth.shape, smooth.shape.sample(200)))
+    smooth.controls["noise"].value = 0.2
+    after = next(v for k, v in smooth.numbers.items() if "end" in k)
+    assert_said("02_1_shapes", f"makes {after} ends of {before}")
+
+
+def test_holes_of_the_polyball():
+    X = psl.datasets.load("horse")
+    betti = {n: psl.sk2(X, X.sample(n)).balls().skeleton().betti() for n in (100, 200)}
+    assert betti[200] == (1, 0)
+    assert_said("03_2_polyballs", f"$b_1 = {betti[100][1]}$. With 200 they are gone")
+
+
+def test_refinement_of_the_horse():
+    P = psl.datasets.load("horse", n=40)
+    steps = explore.refinement(P).numbers["missing_per_step"]
+    done = psl.conform(P, to="gabriel")
+    assert_said("03_5_comparison", ", ".join(map(str, steps)), f"40 samples have become {len(done.points)}")
+
+
+def test_vertices_outside_the_polygon():
+    X, words, outside = psl.datasets.load("horse"), {12: "twelve", 2: "two", 0: "none"}, {}
+    for n in (50, 96, 200):
+        P = psl.conform(X.resample(n, start=0.7), to="delaunay")
+        outside[len(P.points)] = words[int((~P.contains(psl.sk0(P).vertices)).sum())]
+    (a, x), (b, y), (c, z) = outside.items()
+    assert_said("03_four_methods", f"with {a} samples {x} vertices", f"with {b} {y}, with {c} {z}")
+
+
+def test_size_of_the_lake():
+    X = psl.datasets.load("lake")
+    for n in (100, 200):
+        skeleton = psl.sk0(psl.conform(X.resample(n)))
+        count = len(skeleton.tessellation.points)
+        assert (len(skeleton.vertices) - count, len(skeleton.edges) - count) == (2, 3)
+    assert_said("03_6_complexity", "$n + 2$ vertices and $n + 3$ edges")
+
+
+def test_hairs_and_arms():
+    clean = figures.regular_shape(300)
+    noise = np.random.default_rng(2).normal(size=(300, 2)) * 0.004
+    h = psl.hierarchy(psl.Shape(clean.points + noise, clean.facets))
+    assert branches(h, 0.5, 0.8, 1.0) == [5, 3, 3]
+    assert_said("04_simplifying", f"five of the {branches(h, 0)[0]} ends are left")
+
+
+def test_last_lobe_of_the_leaf():
+    h = psl.hierarchy(psl.datasets.load("leaf"))
+    assert branches(h, 2.4, 10) == [2, 2]
+    assert_said("04_simplifying", "At $2.4\\pi$ the last lobe has gone, and one line with two ends is left")
+
+
+def test_sheet_and_wire_of_the_vertebra(vertebra):
+    surface, wire = vertebra["surface"], vertebra["wireframe"]
+    all_, a, b, c = (len(surface.skeleton(t * np.pi).polygons) for t in (-np.inf, 1 / 3, 0.5, 0.6))
+    k = branches(wire, 0.5, 1, 2, 3)
+    assert_said(
+        "04_3_criteria",
+        f"holds {a} of its {all_} polygons at $\\pi/3$, {b} at $\\tfrac12\\pi$ and {c} at $0.6\\pi$",
+        f"{k[0]} at $\\tfrac12\\pi$, {k[1]} at $\\pi$, {k[2]} at $2\\pi$, {k[3]} at $3\\pi$",
+    )
+
+
+def test_thirteen_branches_are_there_for_a_moment(vertebra):
+    wire = vertebra["wireframe"]
+    moments = np.unique(
+        np.append(wire.level[(wire.level > 2 * np.pi) & (wire.level < 2.2 * np.pi)], 2.2 * np.pi)
+    )
+    counts = branches(wire, 2.0, *(np.nextafter(moments, np.inf) / np.pi))
+    steps = [n for n, before in zip(counts, [None, *counts], strict=False) if n != before]
+    assert_said("04_results", f"runs through {', '.join(map(str, steps[:-1]))} and {steps[-1]}")
+
+
+def test_four_branches_for_long():
+    h = psl.hierarchy(psl.delaunay_shape(psl.conform(psl.datasets.load("fourbranch"))), "wireframe")
+    assert set(branches(h, *np.linspace(0.5, 5.7, 14))) == {4}
+    assert_said("04_results", "From $\\tfrac12\\pi$ to $5.7\\pi$ there are four")
