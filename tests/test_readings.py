@@ -121,3 +121,31 @@ def test_four_branches_for_long():
     h = psl.hierarchy(psl.delaunay_shape(psl.conform(psl.datasets.load("fourbranch"))), "wireframe")
     assert set(branches(h, *np.linspace(0.5, 5.7, 14))) == {4}
     assert_said("04_results", "From $\\tfrac12\\pi$ to $5.7\\pi$ there are four")
+
+
+def test_ends_that_noise_makes():
+    explorer, counts = explore.sampling(figures.regular_shape(), n=50), {}
+    for noise in (0.1, 0):
+        explorer.controls["noise"].value = noise
+        counts[noise] = []
+        for n in (50, 100, 200):
+            explorer.controls["n"].value = n
+            counts[noise].append(next(v for k, v in explorer.numbers.items() if "end" in k))
+    a, b = counts[0.1], counts[0]
+    assert_said(
+        "03_2_convergence",
+        f"{a[0]} ends, {a[1]} ends, {a[2]} ends",
+        f"Set it to zero and there are {b[0]}, {b[1]} and {b[2]}",
+    )
+
+
+def test_removals_of_the_gear():
+    h = psl.hierarchy(psl.datasets.load("gear", n=60))
+    ring = np.isinf(h.level)
+    inner = np.append(np.zeros(len(h.P.inner), dtype=bool), False)
+    inner[h.simplices[ring]] = True
+    assert (inner[h.P.tessellation.neighbors[h.simplices[ring]]].sum(axis=1) == 2).all()
+    assert_said(
+        "04_2_homotopy",
+        f"After {len(h.order)} of {len(h.level)} removals a ring of {ring.sum()} triangles is left",
+    )
