@@ -95,7 +95,7 @@ def measure_region(points: np.ndarray, facets: np.ndarray) -> Stages:
     from scipy.spatial import Delaunay
 
     import polyskel_lite as psl
-    from polyskel_lite import delaunay_shapes
+    from polyskel_lite.containment import delaunay_shapes
 
     stages = Stages()
     stages.run("scipy", lambda: Delaunay(points))

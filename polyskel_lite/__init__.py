@@ -1,12 +1,13 @@
 """Continuous skeletons from the Voronoi graph of boundary samples (Attali & Montanvert, CVIU 1997)."""
 
 from . import datasets, implicit
-from .branches import branch_graph
-from .complexes import Skeleton
-from .conforming import conform, missing_facets
-from .delaunay_balls import Sk2Conditions, delaunay_balls, sk2_conditions
-from .delaunay_shapes import DelaunayShape, delaunay_shape
-from .distances import directed_hausdorff, hausdorff
+from .containment import (
+    DelaunayShape,
+    conform,
+    delaunay_shape,
+    missing_facets,
+    reconstruct_curve,
+)
 from .errors import (
     ContourContainmentError,
     DuplicatePointError,
@@ -17,12 +18,11 @@ from .errors import (
     TangentBallsError,
     TessellationError,
 )
-from .graphs import Tessellation, delaunay, gabriel, voronoi
-from .polyballs import Polyball
-from .reconstruction import reconstruct_curve
+from .graphs import Tessellation, delaunay, gabriel
+from .polyballs import Polyball, Sk2Conditions, delaunay_balls, sk2_conditions
 from .shapes import Shape
 from .simplification import Hierarchy, hierarchy
-from .skeletons import sk0, sk1, sk2, sk3
+from .skeletons import Skeleton, branch_graph, directed_hausdorff, hausdorff, sk0, sk1, sk2, sk3, voronoi
 
 __all__ = [
     "ContourContainmentError",

@@ -15,13 +15,13 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 import polyskel_lite as psl
-from polyskel_lite._ball_distance import distance_to_boundary
-from polyskel_lite._caps import caps
-from polyskel_lite.ball_patches import _fan, _icosphere, patches
-from polyskel_lite.ball_volumes import patch_areas, surface_area, volume
 from polyskel_lite.errors import InputError
-from polyskel_lite.power import power_triangulation
-from polyskel_lite.spheres import sphere_boundary
+from polyskel_lite.polyballs.distance import distance_to_boundary
+from polyskel_lite.polyballs.power import power_triangulation
+from polyskel_lite.polyballs.sphere_caps import caps
+from polyskel_lite.polyballs.sphere_patches import _fan, _icosphere, patches
+from polyskel_lite.polyballs.spheres import sphere_boundary
+from polyskel_lite.polyballs.volumes import patch_areas, surface_area, volume
 
 PI = np.pi
 

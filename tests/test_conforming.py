@@ -7,7 +7,7 @@ import pytest
 from oracle import grid_region, rational, strictly_gabriel
 
 import polyskel_lite as psl
-from polyskel_lite.conforming import conform_stages
+from polyskel_lite.containment.conforming import conform_stages
 
 
 def star(rng, n, spike):

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import polyskel_lite as psl
-from polyskel_lite.power import power_triangulation
-from polyskel_lite.topology import components
+from polyskel_lite.exact.topology import components
+from polyskel_lite.polyballs.power import power_triangulation
 
 
 def orthoballs(points, weights, simplices):

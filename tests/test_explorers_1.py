@@ -9,8 +9,8 @@ import pytest
 import polyskel_lite as psl
 from polyskel_lite import explore
 from polyskel_lite.drawing import KINDS
-from polyskel_lite.explore.board import Board, box_around
-from polyskel_lite.explore.explorer import Explorer
+from polyskel_lite.explore.drawing_board.board import Board, box_around
+from polyskel_lite.explore.explorers.explorer import Explorer
 
 HORSE = psl.datasets.load("horse")
 FRAME = psl.Shape.from_rings([[(0, 0), (6, 0), (6, 6), (0, 6)], [(2, 2), (4, 2), (4, 4), (2, 4)]])

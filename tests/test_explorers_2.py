@@ -18,8 +18,8 @@ from PIL import Image
 
 import polyskel_lite as psl
 from polyskel_lite import explore, implicit
-from polyskel_lite.conforming import conform_stages
-from polyskel_lite.explore import _results
+from polyskel_lite.containment.conforming import conform_stages
+from polyskel_lite.explore.explorers import results
 
 
 def module(name):
@@ -515,7 +515,7 @@ def test_table_follows_the_threshold_and_is_for_screen_readers():
         table = ElementTree.fromstring(own._table.value)
         graph = own.hierarchy.branches(threshold)
         rows = table.findall("tbody/tr")
-        assert len(rows) == min(graph.number_of_edges(), _results.ROWS_SHOWN)
+        assert len(rows) == min(graph.number_of_edges(), results.ROWS_SHOWN)
         assert f"{threshold / np.pi:.3g} π" in table.find("caption").text
         assert all(head.get("scope") == "col" for head in table.findall("thead/tr/th"))
         assert all(row.find("th").get("scope") == "row" for row in rows)
@@ -576,7 +576,7 @@ def test_files_are_written_beside_the_notebook_or_it_says_why_not(tmp_path, monk
 
 def test_branch_of_a_strip_has_its_width():
     strip = psl.Shape.from_rings([[(0, 0), (20, 0), (20, 2), (0, 2)]]).resample(220)
-    (row,) = _results.branch_rows(psl.hierarchy(strip), np.pi)
+    (row,) = results.branch_rows(psl.hierarchy(strip), np.pi)
     assert row.length == pytest.approx(18, abs=0.2)
     assert 2 * row.mean_radius == pytest.approx(2, rel=0.02)
-    assert _results.branch_table([]).startswith("<p>No branches")
+    assert results.branch_table([]).startswith("<p>No branches")

@@ -6,7 +6,7 @@ import pytest
 import polyskel_lite as psl
 from polyskel_lite import figures
 from polyskel_lite.figures import removals, simplification, solids
-from polyskel_lite.simplification import facet_measures
+from polyskel_lite.simplification.criteria import facet_measures
 
 
 def without(P, row):

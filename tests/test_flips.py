@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 import polyskel_lite as psl
-from polyskel_lite import _triangulate
-from polyskel_lite._flips import _flip, flip_to_delaunay
-from polyskel_lite._incremental import incremental_delaunay
-from polyskel_lite._mending import mended
 from polyskel_lite.errors import TessellationError
-from polyskel_lite.predicates import orientation
+from polyskel_lite.exact.predicates import orientation
+from polyskel_lite.graphs import triangulation
+from polyskel_lite.graphs.incremental import incremental_delaunay
+from polyskel_lite.graphs.mending import _flip, flip_to_delaunay, mended
 
 
 def spoiled(t: psl.Tessellation, tries: int, seed: int):
@@ -37,27 +36,27 @@ def test_random_flips_are_undone(seed):
     points = rng.random((120, 2)) if seed % 2 else rng.integers(0, 12, (90, 2)).astype(float)
     t = psl.delaunay(np.unique(points, axis=0))
     triangles, neighbors = spoiled(t, 400, seed)
-    assert "inside" in _triangulate.problem(t.points, triangles, neighbors)
+    assert "inside" in triangulation.problem(t.points, triangles, neighbors)
     repaired = flip_to_delaunay(t.points, triangles, neighbors)
-    assert _triangulate.problem(t.points, *repaired) == ""
+    assert triangulation.problem(t.points, *repaired) == ""
     if seed % 2:  # no four samples on a circle: only one tessellation
-        assert np.array_equal(_triangulate._canonical(*repaired)[0], t.simplices)
+        assert np.array_equal(triangulation._canonical(*repaired)[0], t.simplices)
 
 
 def test_a_wrong_tessellation_of_qhull_is_repaired_without_starting_again(monkeypatch):
     points = np.random.default_rng(3).random((200, 2))
     right = psl.delaunay(points)
-    monkeypatch.setattr(_triangulate, "_qhull", lambda _: spoiled(right, 300, 1))
-    monkeypatch.setattr(_triangulate, "incremental_delaunay", pytest.fail)
+    monkeypatch.setattr(triangulation, "_qhull", lambda _: spoiled(right, 300, 1))
+    monkeypatch.setattr(triangulation, "incremental_delaunay", pytest.fail)
     assert np.array_equal(psl.delaunay(points).simplices, right.simplices)
 
 
 def test_what_is_no_triangulation_is_left_to_the_check(monkeypatch):
     points = np.array([(0.0, 0.0), (1.0, -1.0), (2.0, 0.0), (1.0, 3.0)])
     twice = np.array([[0, 1, 2], [0, 2, 3], [0, 1, 3]]), np.array([[-1, 1, -1], [-1, 2, 0], [-1, 1, -1]])
-    assert _triangulate.problem(points, *twice)
+    assert triangulation.problem(points, *twice)
     assert flip_to_delaunay(points, *twice)[0].shape == (3, 3)
-    monkeypatch.setattr(_triangulate, "_candidates", lambda _: [lambda: twice])
+    monkeypatch.setattr(triangulation, "_candidates", lambda _: [lambda: twice])
     with pytest.raises(TessellationError, match="passed the exact check"):
         psl.delaunay(points)
 
@@ -67,9 +66,9 @@ def test_samples_on_straight_sides_are_mended(name, monkeypatch):
     """Qhull turns needles along the hull inside out there; the slow exact method is not needed."""
     points = psl.datasets.load(name).resample(3000).points
     right = incremental_delaunay(points)
-    monkeypatch.setattr(_triangulate, "incremental_delaunay", pytest.fail)
-    assert _triangulate.problem(points, *right) == ""
-    assert np.array_equal(psl.delaunay(points).simplices, _triangulate._canonical(*right)[0])
+    monkeypatch.setattr(triangulation, "incremental_delaunay", pytest.fail)
+    assert triangulation.problem(points, *right) == ""
+    assert np.array_equal(psl.delaunay(points).simplices, triangulation._canonical(*right)[0])
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -80,6 +79,6 @@ def test_nearly_collinear_samples(seed, monkeypatch):
     turn = np.linalg.qr(rng.normal(size=(2, 2)))[0]
     points = np.unique(np.concatenate(sides) @ turn, axis=0)
     t = psl.delaunay(points)
-    assert _triangulate.problem(points, t.simplices, t.neighbors) == ""
-    triangles, _ = mended(points, *_triangulate._qhull(points))
+    assert triangulation.problem(points, t.simplices, t.neighbors) == ""
+    triangles, _ = mended(points, *triangulation._qhull(points))
     assert len(triangles) in (0, len(t.simplices))

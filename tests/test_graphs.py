@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, QhullError
 
 import polyskel_lite as psl
-from polyskel_lite._incremental import incremental_delaunay
-from polyskel_lite._triangulate import problem
-from polyskel_lite.predicates import in_ball, in_gabriel_ball
+from polyskel_lite.exact.predicates import in_ball, in_gabriel_ball
+from polyskel_lite.graphs.incremental import incremental_delaunay
+from polyskel_lite.graphs.triangulation import problem
 
 
 def distinct(n, least, most):

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polyskel_lite import DuplicatePointError, InputError, Shape, ShapeError
-from polyskel_lite._boxes import self_overlaps
-from polyskel_lite.triangles import (
+from polyskel_lite.exact.boxes import self_overlaps
+from polyskel_lite.exact.triangles import (
     distance_to_triangles,
     locate_in_mesh,
     meeting_faces,

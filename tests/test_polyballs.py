@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 
 from polyskel_lite import InputError, Shape, conform, datasets
-from polyskel_lite.discs import _wrapped, disc_boundary
-from polyskel_lite.polyballs import Polyball
+from polyskel_lite.polyballs.discs import _wrapped, disc_boundary
+from polyskel_lite.polyballs.polyball import Polyball
 
 
 def oracle(centers, radii, slack=1e-9):

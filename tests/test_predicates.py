@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from polyskel_lite.checks import as_points
 from polyskel_lite.errors import InputError
-from polyskel_lite.predicates import as_integers, as_points, in_ball, in_gabriel_ball, orientation
+from polyskel_lite.exact.predicates import as_integers, in_ball, in_gabriel_ball, orientation
 
 # Small integers give many exact zeros, the factor puts them where floats cannot represent them exactly.
 coordinate = st.integers(-3, 3)

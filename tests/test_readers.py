@@ -12,8 +12,8 @@ from PIL import Image
 from scipy.ndimage import label
 
 from polyskel_lite import InputError, PolyskelError, Shape, ShapeError, datasets
-from polyskel_lite.readers import from_file, from_mask
-from polyskel_lite.svg import svg_rings
+from polyskel_lite.files.readers import from_file, from_mask
+from polyskel_lite.files.svg import svg_rings
 
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]
 HOLE = [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import polyskel_lite as psl
-from polyskel_lite import _collapse
-from polyskel_lite.simplification import face_angles, facet_measures
+from polyskel_lite.simplification import collapse
+from polyskel_lite.simplification.criteria import face_angles, facet_measures
 
 STRATEGIES = {2: ["branch"], 3: ["surface", "wireframe"]}
 
@@ -103,7 +103,7 @@ def test_compiled_and_plain_loops_agree(strategy):
     arguments = (strategy, False, t.simplices, t.neighbors, facet_measures(t), alpha, t.circumradii)
     pytest.importorskip("numba")
     for a, b in zip(
-        _collapse.run(*arguments, compiled=True), _collapse.run(*arguments, compiled=False), strict=True
+        collapse.run(*arguments, compiled=True), collapse.run(*arguments, compiled=False), strict=True
     ):
         assert np.array_equal(a, b)
 
@@ -153,10 +153,10 @@ def test_area_is_handed_on_completely():
     neighbors, measure = number[t.neighbors[inner]], facet_measures(t, inner)
     total = measure[neighbors < 0].sum()
     for printed in (False, True):
-        level, kind, _, share = _collapse.run(
+        level, kind, _, share = collapse.run(
             "wireframe", printed, t.simplices[inner], neighbors, measure, None, t.circumradii[inner]
         )
-        assert (kind == _collapse.HAT).any()
+        assert (kind == collapse.HAT).any()
         # Sums of a thousand areas of size one hundredth, in another order.
         assert (share[level == np.inf].sum() == pytest.approx(total, rel=1e-9)) != printed
 

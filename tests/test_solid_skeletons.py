@@ -9,7 +9,7 @@ from test_solids import FIELDS, random_solids, solid
 
 import polyskel_lite as psl
 from polyskel_lite import InputError
-from polyskel_lite._rational_space import clip_rational, locate_rational, rational_circumcenter
+from polyskel_lite.exact.rational import clip_rational, locate_rational, rational_circumcenter
 
 
 def nested(small, large):

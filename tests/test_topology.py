@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from polyskel_lite.topology import betti_numbers, components, euler_characteristic
+from polyskel_lite.exact.topology import betti_numbers, components, euler_characteristic
 
 
 def grid_surface(rows, columns, wrap_rows, wrap_columns, twist=False):

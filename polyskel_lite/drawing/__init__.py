@@ -18,59 +18,11 @@ Examples
 
 from .balls import draw_ball, draw_balls
 from .graphs import draw_delaunay, draw_gabriel, draw_skeleton, draw_voronoi
+from .lines import box_of, chains, clip_segments, ray_segments
 from .planar import draw_lines, draw_samples, draw_shape
-from .spatial import (
-    VIEW,
-    axes_3d,
-    draw_facets_3d,
-    draw_lines_3d,
-    draw_mesh,
-    draw_samples_3d,
-    focus_3d,
-)
+from .spatial import LIGHT, VIEW, axes_3d, draw_facets_3d, draw_lines_3d, draw_mesh, draw_samples_3d, focus_3d
 from .spatial_balls import draw_polyball_3d
 from .spatial_graphs import draw_tessellation_3d, draw_voronoi_3d
 from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d, view_direction
-from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, legend, setup
-from .view import box_of, chains, clip_segments, focus, inset, ray_segments
-
-__all__ = [
-    "KINDS",
-    "RAMP",
-    "RC",
-    "TEXT_WIDTH",
-    "VIEW",
-    "Kind",
-    "axes",
-    "axes_3d",
-    "box_of",
-    "chains",
-    "clip_segments",
-    "draw_ball",
-    "draw_balls",
-    "draw_color_bar",
-    "draw_delaunay",
-    "draw_facets_3d",
-    "draw_gabriel",
-    "draw_glass",
-    "draw_lines",
-    "draw_lines_3d",
-    "draw_mesh",
-    "draw_polyball_3d",
-    "draw_samples",
-    "draw_samples_3d",
-    "draw_shape",
-    "draw_skeleton",
-    "draw_skeleton_3d",
-    "draw_tessellation_3d",
-    "draw_voronoi",
-    "draw_voronoi_3d",
-    "focus",
-    "focus_3d",
-    "handle",
-    "inset",
-    "legend",
-    "ray_segments",
-    "setup",
-    "view_direction",
-]
+from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, kind_of, legend, setup
+from .view import focus, inset

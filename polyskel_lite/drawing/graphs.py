@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
 from ..errors import InputError
+from .lines import box_of, chains, clip_segments, points_of, ray_segments
 from .planar import draw_lines, draw_samples
 from .style import kind_of
-from .view import _points, box_of, chains, clip_segments, ray_segments
 
 
 def draw_delaunay(ax: Axes, tessellation, inner=None, edges: bool = True, **style) -> Axes:
@@ -102,7 +102,7 @@ def draw_gabriel(ax: Axes, points, edges=None, **style) -> Axes:
         from ..graphs import gabriel
 
         edges = gabriel(points)
-    points = np.asarray(_points(points), dtype=float)
+    points = np.asarray(points_of(points), dtype=float)
     return draw_lines(ax, [points[chain] for chain in chains(edges)], "gabriel", **style)
 
 

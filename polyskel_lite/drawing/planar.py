@@ -12,8 +12,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
+from .lines import points_of
 from .style import kind_of
-from .view import _points
 
 
 def draw_shape(ax: Axes, shape, fill: bool = True, kind: str = "shape", **style) -> Axes:
@@ -82,7 +82,7 @@ def draw_samples(ax: Axes, points, kind: str = "samples", **style) -> Axes:
     >>> plt.close(fig)
     """
     look = kind_of(kind)
-    points = np.asarray(_points(points), dtype=float).reshape(-1, 2)
+    points = np.asarray(points_of(points), dtype=float).reshape(-1, 2)
     options = {
         "color": look.color,
         "linestyle": "none",

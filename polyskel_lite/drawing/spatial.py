@@ -13,8 +13,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
+from .lines import box_of, points_of
 from .style import TEXT_WIDTH, kind_of
-from .view import _points, box_of
 
 #: Where the camera of every 3D picture stands: elevation and azimuth, in degrees.
 VIEW = {"elev": 22.0, "azim": -52.0}
@@ -117,7 +117,7 @@ def draw_facets_3d(
     >>> plt.close(fig)
     """
     look = kind_of(kind)
-    points = np.asarray(_points(points), dtype=float)
+    points = np.asarray(points_of(points), dtype=float)
     corners = [points[np.asarray(facet, dtype=int)] for facet in facets]
     if not corners:
         return ax
@@ -191,7 +191,7 @@ def draw_samples_3d(ax: Axes, points, kind: str = "samples", **style) -> Axes:
     >>> plt.close(fig)
     """
     look = kind_of(kind)
-    points = np.asarray(_points(points), dtype=float).reshape(-1, 3)
+    points = np.asarray(points_of(points), dtype=float).reshape(-1, 3)
     options = {
         "color": look.color,
         "linestyle": "none",

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
+from .lines import box_of, clip_segments, ray_segments
 from .spatial import draw_facets_3d, draw_lines_3d
-from .view import box_of, clip_segments, ray_segments
 
 
 def draw_tessellation_3d(

@@ -12,11 +12,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, Normalize, to_rgb
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-from ..branches import free_edges
 from ..errors import InputError
+from ..skeletons import free_edges
+from .lines import box_of
 from .spatial import LIGHT, focus_3d
 from .style import kind_of
-from .view import box_of
 
 #: Colours for numbers along a skeleton: viridis, without the yellow end that a white page swallows. It is
 #: made for readers with any kind of colour vision, and turns into a grey scale in print.

@@ -12,68 +12,38 @@ Examples
 True
 """
 
-import sys
 from importlib import import_module
-from types import ModuleType
 
-# Where each name lives; a module is imported when its first name is asked for.
-_HOMES = {
-    "Board": "board",
-    "Explorer": "explorer",
-    "SkeletonViewer": "viewer",
-    "balls": "balls",
-    "explore": "bring_your_own",
-    "four_methods": "four_methods",
-    "graphs": "graphs",
-    "maximal_ball": "maximal_ball",
-    "refinement": "refinement",
-    "removals": "removals",
-    "sampling": "sampling",
-    "thresholds": "thresholds",
-    "viewer": "viewer",
-}
+# The room of each name; it is imported when the first of its names is asked for.
+_ROOMS = {
+    "Board": "drawing_board",
+    "SkeletonViewer": "skeleton_viewer",
+    "viewer": "skeleton_viewer",
+} | dict.fromkeys(
+    (
+        *("Explorer", "balls", "explore", "four_methods", "graphs", "maximal_ball", "refinement", "removals"),
+        *("sampling", "thresholds"),
+    ),
+    "explorers",
+)
 _NEEDED = ("anywidget", "ipywidgets", "traitlets")
 
-__all__ = [
-    "Board",
-    "Explorer",
-    "SkeletonViewer",
-    "balls",
-    "explore",
-    "four_methods",
-    "graphs",
-    "maximal_ball",
-    "refinement",
-    "removals",
-    "sampling",
-    "thresholds",
-    "viewer",
-]
+__all__ = sorted(_ROOMS)
 
 
-class _Package(ModuleType):
-    """Modules here are named after their function; the name in the package means the function."""
-
-    def __setattr__(self, name, value):
-        if isinstance(value, ModuleType) and name in _HOMES:
-            value = getattr(value, name, value)
-        super().__setattr__(name, value)
-
-    def __getattr__(self, name):
-        if name not in _HOMES:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        try:
-            return getattr(import_module(f".{_HOMES[name]}", __name__), name)
-        except ModuleNotFoundError as error:
-            if error.name not in _NEEDED:
-                raise
-            raise ImportError(
-                f"polyskel_lite.explore needs {error.name}, which is not installed; "
-                "run: pip install polyskel-lite[lab]"
-            ) from None
-
-    def __dir__(self):
-        return sorted({*super().__dir__(), *_HOMES})
+def __getattr__(name):
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        return getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+    except ModuleNotFoundError as error:
+        if error.name not in _NEEDED:
+            raise
+        raise ImportError(
+            f"polyskel_lite.explore needs {error.name}, which is not installed; "
+            "run: pip install polyskel-lite[lab]"
+        ) from None
 
 
-sys.modules[__name__].__class__ = _Package
+def __dir__():
+    return sorted({*globals(), *_ROOMS})

@@ -23,23 +23,3 @@ from .registry import FIGURES, write_figures
 from .removals import figure_6, figure_7
 from .results import figure_10
 from .simplification import figure_8, figure_9
-
-__all__ = [
-    "FIGURES",
-    "figure_1",
-    "figure_2",
-    "figure_2_3d",
-    "figure_3",
-    "figure_4",
-    "figure_5",
-    "figure_6",
-    "figure_7",
-    "figure_8",
-    "figure_9",
-    "figure_10",
-    "figure_11",
-    "figure_12",
-    "figure_13",
-    "regular_shape",
-    "write_figures",
-]

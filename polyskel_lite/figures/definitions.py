@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from .. import datasets, drawing
-from ..delaunay_shapes import delaunay_shape
-from ..graphs import delaunay, gabriel, voronoi
-from ..skeletons import sk0
+from ..containment import delaunay_shape
+from ..graphs import delaunay, gabriel
+from ..skeletons import sk0, voronoi
 from .registry import paper_figure
 
 

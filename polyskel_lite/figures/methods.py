@@ -6,10 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import datasets, drawing
-from ..delaunay_shapes import delaunay_shape
-from ..graphs import voronoi
+from ..containment import delaunay_shape
 from ..shapes import Shape
-from ..skeletons import sk0, sk1, sk2, sk3
+from ..skeletons import sk0, sk1, sk2, sk3, voronoi
 from .registry import paper_figure
 
 

@@ -8,9 +8,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from .. import drawing
-from ..branches import free_edges
 from ..errors import InputError
 from ..polyballs import Polyball
+from ..skeletons import free_edges
 from .registry import paper_figure
 
 #: Fill of the one ball that a panel is about.

@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import drawing
-from ..delaunay_shapes import DelaunayShape, delaunay_shape
+from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..shapes import Shape
+from ..simplification import simplices_by_type
 from ..skeletons import sk0
 from .registry import paper_figure
 from .solids import REST, THIS, draw_apart, draw_solid, helix, orange, simplex_of, star
@@ -23,20 +24,6 @@ POLYGON = np.array(
     ]
 )
 OCTAHEDRON = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], dtype=float)
-
-
-def simplices_by_type(P: DelaunayShape) -> np.ndarray:
-    """How many facets of each simplex are shared with the region, -1 for simplices outside, (t,) int array.
-
-    Examples
-    --------
-    >>> import polyskel_lite as psl
-    >>> strip = psl.delaunay_shape(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
-    >>> sorted(simplices_by_type(strip)[strip.inner].tolist())
-    [1, 1, 2]
-    """
-    shared = np.append(P.inner, False)[P.tessellation.neighbors].sum(axis=1)
-    return np.where(P.inner, shared, -1)
 
 
 def examples_6() -> list[tuple[DelaunayShape, int]]:

@@ -8,10 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import datasets, drawing
-from ..branches import branch_graph
-from ..delaunay_shapes import DelaunayShape, delaunay_shape
+from ..containment import DelaunayShape, delaunay_shape
 from ..simplification import hierarchy
-from ..skeletons import sk0
+from ..skeletons import branch_graph, sk0
 from .registry import paper_figure
 
 #: From where each shape is seen, and how much it is enlarged: arguments of ``view_init``, and zoom.

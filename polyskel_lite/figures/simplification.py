@@ -7,7 +7,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from .. import datasets, drawing
-from ..simplification import Hierarchy, hierarchy
+from ..simplification import behind, hierarchy
 from ..skeletons import sk0
 from .registry import paper_figure
 
@@ -57,67 +57,6 @@ def figure_8(shape=None, thresholds=(0.0, np.pi / 2, np.pi, 2 * np.pi)) -> Figur
     for ax in axs:
         drawing.focus(ax, outline, margin=0.02)
     return fig
-
-
-def parents(h: Hierarchy) -> np.ndarray:
-    """The neighbour to which each triangle hands its boundary on when it goes, -1 for those that stay.
-
-    Parameters
-    ----------
-    h : Hierarchy
-        In 2D: a hat triangle has one neighbour left.
-
-    Returns
-    -------
-    (k,) int array
-        Positions in ``h.level``.
-
-    Examples
-    --------
-    >>> import polyskel_lite as psl
-    >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
-    >>> parents(h).tolist().count(-1)
-    1
-    """
-    rank = np.full(len(h.level), len(h.level))
-    rank[h.order] = np.arange(len(h.order))
-    towards = np.full(len(h.level), -1)
-    for a, b in sk0(h.P).edges.tolist():
-        first, second = (a, b) if rank[a] < rank[b] else (b, a)
-        if rank[first] < len(rank):
-            towards[first] = second
-    return towards
-
-
-def behind(h: Hierarchy, vertex: int) -> np.ndarray:
-    """A(v): the triangles that must go before a vertex of the skeleton can go, and its own (section 4.3).
-
-    Parameters
-    ----------
-    h : Hierarchy
-        In 2D.
-    vertex : int
-        Position in ``h.level``, or vertex of ``sk0(h.P)``.
-
-    Returns
-    -------
-    (a,) int array
-        Positions, the vertex itself the last one. The boundary length p(v) is that of all of them.
-
-    Examples
-    --------
-    >>> import polyskel_lite as psl
-    >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
-    >>> [len(behind(h, vertex)) for vertex in h.order]
-    [1, 1]
-    """
-    towards, found = parents(h), {int(vertex)}
-    members = [int(vertex)]
-    for k in reversed(h.order.tolist()):
-        if k not in found and towards[k] in found:
-            found.add(k)
-            members.append(k)
-    return np.array(members[::-1])
 
 
 @paper_figure

@@ -8,8 +8,8 @@ from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .. import drawing
-from ..delaunay_shapes import DelaunayShape
-from ..drawing.spatial import LIGHT
+from ..containment import DelaunayShape
+from ..drawing import LIGHT
 from ..graphs import delaunay
 from ..skeletons import sk0
 

@@ -1,0 +1,32 @@
+"""Signs and counts that never round: where a point lies, what meets what, what is connected.
+
+Floats with an error bound decide nearly everything, whole numbers and fractions the rest. In the room:
+predicates (orientation, in-ball and Gabriel tests), segments, triangles, boxes that overlap, rational
+points, polygons and rings around edges, Betti numbers, rows of small whole numbers.
+"""
+
+from .arrays import unique_rows
+from .boxes import overlapping_pairs
+from .polygons import Polygons, dual_polygons, edge_rings
+from .predicates import as_integers, in_ball, in_gabriel_ball, orientation
+from .rational import (
+    between,
+    clip_exactly,
+    clip_rational,
+    dot,
+    exact,
+    exact_circumcenter,
+    locate_exactly,
+    locate_rational,
+    minus,
+    rational_circumcenter,
+)
+from .segments import distance_to_segments, first_meeting, locate, point_segment_distance
+from .topology import betti_numbers, components, euler_characteristic, occurrences
+from .triangles import (
+    distance_to_triangles,
+    locate_in_mesh,
+    meeting_faces,
+    point_triangle_distance,
+    shadow_signs,
+)

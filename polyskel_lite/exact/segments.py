@@ -1,0 +1,168 @@
+"""Segments in the plane: which ones meet, where a point lies, what part of a segment is inside.
+
+This is the floor below `Shape`: signs are exact (see `predicates`), searching is a sweep along one axis.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .boxes import overlapping_pairs
+from .predicates import in_gabriel_ball, orientation
+
+_CHUNK = 2_000_000  # pairs of points and segments looked at together: bounds the memory, not the result
+
+
+def segments_meet(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Whether the closed segments a[i] and b[i] share a point, exactly; their boxes must overlap.
+
+    Parameters
+    ----------
+    a, b : (k, 2, 2) float arrays
+
+    Returns
+    -------
+    (k,) bool array
+
+    Examples
+    --------
+    >>> cross = np.array([[[0, 0], [2, 2]]]), np.array([[[0, 2], [2, 0]]])
+    >>> segments_meet(*cross)
+    array([ True])
+    """
+
+    def sides(s, t):
+        return orientation(np.stack([s[:, 0], s[:, 1], t[:, 0]], axis=1)) * orientation(
+            np.stack([s[:, 0], s[:, 1], t[:, 1]], axis=1)
+        )
+
+    return (sides(a, b) <= 0) & (sides(b, a) <= 0)
+
+
+def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | None:
+    """The first two segments that meet elsewhere than at a common end, or None.
+
+    Parameters
+    ----------
+    points : (n, 2) float array
+    facets : (m, 2) int array
+
+    Returns
+    -------
+    tuple of two ints or None
+        Indices into ``facets``; two segments of one vertex that lie on each other count too.
+
+    Examples
+    --------
+    >>> bow = np.array([[0, 0], [1, 1], [1, 0], [0, 1]], dtype=float)
+    >>> first_meeting(bow, np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))
+    (0, 2)
+    """
+    ends = points[facets]
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    for i, j in overlapping_pairs(low, high, low, high):
+        i, j = i[i < j], j[i < j]
+        shared = facets[i][:, :, None] == facets[j][:, None, :]
+        apart = ~shared.any(axis=(1, 2))
+        bad = np.zeros(len(i), dtype=bool)
+        bad[apart] = segments_meet(ends[i[apart]], ends[j[apart]])
+        bad[~apart] = _on_each_other(points, facets[i[~apart]], facets[j[~apart]], shared[~apart])
+        if bad.any():
+            k = np.flatnonzero(bad)[np.lexsort((j[bad], i[bad]))[0]]
+            return int(i[k]), int(j[k])
+    return None
+
+
+def _on_each_other(points, a, b, shared) -> np.ndarray:
+    """Whether segments with a common vertex share more; ``shared[k, i, j]`` says that a[k, i] is b[k, j]."""
+    k = np.arange(len(a))
+    place = shared.reshape(-1, 4).argmax(axis=1)
+    common, p, q = a[k, place // 2], a[k, 1 - place // 2], b[k, 1 - place % 2]
+    bad = p == q
+    # Collinear, and the common vertex outside the ball of diameter pq.
+    flat = np.flatnonzero(~bad)
+    flat = flat[orientation(points[np.stack([common, p, q], axis=1)[flat]]) == 0]
+    bad[flat] = in_gabriel_ball(points[np.stack([p, q], axis=1)[flat]], points[common[flat]]) < 0
+    return bad
+
+
+def locate(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Where each query lies in the region left of the oriented segments: +1 inside, 0 on them, -1 outside.
+
+    Parameters
+    ----------
+    segments : (m, 2, 2) float array
+        Closed curves, interior on the left.
+    queries : (k, 2) float array
+
+    Returns
+    -------
+    (k,) int8 array
+        Exact for the floats as given.
+
+    Examples
+    --------
+    >>> square = np.array([[0, 0], [2, 0], [2, 2], [0, 2]], dtype=float)
+    >>> locate(np.stack([square, np.roll(square, -1, axis=0)], axis=1), np.array([[1, 1], [2, 1], [3, 1]]))
+    array([ 1,  0, -1], dtype=int8)
+    """
+    queries = np.asarray(queries, dtype=np.float64)
+    winding = np.zeros(len(queries), dtype=np.int64)
+    touching = np.zeros(len(queries), dtype=bool)
+    a, b = segments[:, 0], segments[:, 1]
+    low, high = segments.min(axis=1), segments.max(axis=1)
+    # Only the heights decide which segments a horizontal ray can meet.
+    for i, j in overlapping_pairs(queries[:, 1:], queries[:, 1:], low[:, 1:], high[:, 1:]):
+        q = queries[i]
+        # A segment wholly to the left of the query is not met by the ray to the right.
+        ahead = high[j, 0] >= q[:, 0]
+        i, j, q = i[ahead], j[ahead], q[ahead]
+        side = orientation(np.stack([a[j], b[j], q], axis=1))
+        touching[i[(side == 0) & (low[j, 0] <= q[:, 0])]] = True
+        up = (a[j, 1] <= q[:, 1]) & (q[:, 1] < b[j, 1]) & (side > 0)
+        down = (b[j, 1] <= q[:, 1]) & (q[:, 1] < a[j, 1]) & (side < 0)
+        np.add.at(winding, i, up.astype(np.int64) - down)
+    result = np.where(winding != 0, 1, -1).astype(np.int8)
+    result[touching] = 0
+    return result
+
+
+def distance_to_segments(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Distance from each query to the nearest segment; O(k m) time in chunks.
+
+    Parameters
+    ----------
+    segments : (m, 2, N) float array
+    queries : (k, N) float array
+
+    Returns
+    -------
+    (k,) float array
+
+    Examples
+    --------
+    >>> distance_to_segments(np.array([[[0, 0], [2, 0]]]), np.array([[1, 3], [5, 4]]))
+    array([3., 5.])
+    """
+    segments, queries = np.asarray(segments, dtype=np.float64), np.asarray(queries, dtype=np.float64)
+    out = np.empty(len(queries))
+    step = max(1, _CHUNK // max(1, len(segments)))
+    for k in range(0, len(queries), step):
+        q = queries[k : k + step, None]
+        out[k : k + step] = point_segment_distance(q, segments[None]).min(axis=1)
+    return out
+
+
+def point_segment_distance(queries: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """Distance from point to segment, row by row (arrays are broadcast).
+
+    Examples
+    --------
+    >>> float(point_segment_distance(np.array([1.0, 2.0]), np.array([[0.0, 0.0], [4.0, 0.0]])))
+    2.0
+    """
+    a, direction = segments[..., 0, :], segments[..., 1, :] - segments[..., 0, :]
+    length2 = (direction**2).sum(axis=-1)
+    t = ((queries - a) * direction).sum(axis=-1) / np.where(length2 > 0, length2, 1)
+    foot = a + np.clip(t, 0, 1)[..., None] * direction
+    return np.sqrt(((queries - foot) ** 2).sum(axis=-1))

@@ -1,0 +1,351 @@
+"""Triangles in space: which ones meet, where a point lies in a closed mesh, how far away it is.
+
+This is the floor below a `Shape` in 3D, as `segments` is in 2D: signs are exact, searching is a sweep
+of boxes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .boxes import overlapping_pairs, self_overlaps
+from .predicates import orientation
+from .segments import point_segment_distance, segments_meet
+
+# The three coordinate planes: whatever is not flat in space has a shadow in one that is not flat.
+_PLANES = ((0, 1), (1, 2), (2, 0))
+_CHUNK = 500_000  # pairs of points and triangles looked at together: bounds the memory, not the result
+
+
+def shadow_signs(triangles: np.ndarray) -> np.ndarray:
+    """Orientation of the shadows of triangles in the planes xy, yz and zx, exactly.
+
+    Parameters
+    ----------
+    triangles : (k, 3, 3) float array
+
+    Returns
+    -------
+    (k, 3) int8 array
+        All zero for triangles without an area.
+
+    Examples
+    --------
+    >>> shadow_signs(np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 1]], [[0, 0, 0], [1, 1, 1], [2, 2, 2]]]))
+    array([[ 1,  0, -1],
+           [ 0,  0,  0]], dtype=int8)
+    """
+    triangles = np.asarray(triangles, dtype=np.float64)
+    return np.stack([orientation(triangles[:, :, plane]) for plane in _PLANES], axis=1)
+
+
+def in_triangle(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Whether each query is in its closed triangle, exactly.
+
+    Parameters
+    ----------
+    triangles : (k, 3, 3) float array
+        With an area.
+    queries : (k, 3) float array
+
+    Examples
+    --------
+    >>> flat = np.array([[[0, 0, 0], [2, 0, 0], [0, 2, 0]]] * 3, dtype=float)
+    >>> in_triangle(flat, np.array([[1, 1, 0], [2, 2, 0], [0, 0, 1e-300]]))
+    array([ True, False, False])
+    """
+    result = _side(triangles, queries) == 0
+    rows = np.flatnonzero(result)
+    for plane in _PLANES:
+        # Seen from the query, the sides of the shadow all turn the same way (or not at all).
+        t, q = triangles[rows][:, :, plane], queries[rows][:, plane]
+        turns = _shadow_turns(t, q)
+        result[rows[(turns.max(axis=0) > 0) & (turns.min(axis=0) < 0)]] = False
+    return result
+
+
+def _side(triangles, queries):
+    """+1 where the query is on the side of the triangle's normal, 0 in its plane."""
+    return orientation(np.concatenate([triangles, queries[:, None]], axis=1))
+
+
+def _shadow_turns(triangles, queries):
+    sides = (triangles[:, (i, (i + 1) % 3)] for i in range(3))
+    return np.stack([orientation(np.concatenate([s, queries[:, None]], axis=1)) for s in sides])
+
+
+def segment_meets_triangle(segments: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Whether each closed segment shares a point with its closed triangle, exactly.
+
+    Parameters
+    ----------
+    segments : (k, 2, 3) float array
+    triangles : (k, 3, 3) float array
+        With an area.
+
+    Returns
+    -------
+    (k,) bool array
+
+    Examples
+    --------
+    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]] * 3, dtype=float)
+    >>> up, beside, along = [[1, 1, -1], [1, 1, 1]], [[3, 3, -1], [3, 3, 1]], [[-1, 1, 0], [9, 1, 0]]
+    >>> segment_meets_triangle(np.array([up, beside, along], dtype=float), floor)
+    array([ True, False,  True])
+    """
+    first, second = _side(triangles, segments[:, 0]), _side(triangles, segments[:, 1])
+    result = first * second <= 0
+    flat = (first == 0) & (second == 0)
+    rows = np.flatnonzero(result & ~flat)
+    p, q, t = segments[rows, 0], segments[rows, 1], triangles[rows]
+    turns = np.stack([orientation(np.stack([p, q, t[:, i], t[:, (i + 1) % 3]], axis=1)) for i in range(3)])
+    result[rows] = ~((turns.max(axis=0) > 0) & (turns.min(axis=0) < 0))
+    rows = np.flatnonzero(flat)
+    if len(rows):
+        result[rows] = _meets_in_plane(segments[rows], triangles[rows])
+    return result
+
+
+def _meets_in_plane(segments, triangles):
+    """The same where the segment lies in the plane of the triangle: on a shadow that has an area."""
+    columns = np.array(_PLANES)[(shadow_signs(triangles) != 0).argmax(axis=1)][:, None, :]
+    s, t = np.take_along_axis(segments, columns, axis=2), np.take_along_axis(triangles, columns, axis=2)
+    turns = _shadow_turns(t, s[:, 0])
+    result = (turns.min(axis=0) >= 0) | (turns.max(axis=0) <= 0)
+    for i in range(3):
+        side = t[:, (i, (i + 1) % 3)]
+        boxes = ((s.min(axis=1) <= side.max(axis=1)) & (side.min(axis=1) <= s.max(axis=1))).all(axis=1)
+        result[boxes] |= segments_meet(s[boxes], side[boxes])
+    return result
+
+
+def meeting_faces(points: np.ndarray, faces: np.ndarray, new: np.ndarray | None = None) -> np.ndarray:
+    """Pairs of faces that share more than their common vertices, exactly.
+
+    Parameters
+    ----------
+    points : (n, 3) float array
+    faces : (m, 3) int array
+        With an area.
+    new : (k,) int array, optional
+        Only pairs with one of these faces; by default all.
+
+    Returns
+    -------
+    (p, 2) int array
+        In increasing order; empty for an embedded mesh.
+
+    Examples
+    --------
+    >>> points = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 9, 0]], dtype=float)
+    >>> meeting_faces(points, np.array([[0, 1, 2], [3, 4, 5]])).tolist()
+    [[0, 1]]
+    """
+    corners = points[faces]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    pairs = self_overlaps(low, high) if new is None else _pairs_with(np.unique(new), low, high)
+    found = [np.zeros((0, 2), dtype=np.int64)]
+    for i, j in pairs:
+        for begin in range(0, len(i), _CHUNK):
+            a, b = i[begin : begin + _CHUNK], j[begin : begin + _CHUNK]
+            bad = _meet(corners[a], corners[b], faces[a][:, :, None] == faces[b][:, None, :])
+            found.append(np.sort(np.stack([a[bad], b[bad]], axis=1), axis=1))
+    pairs = np.concatenate(found)
+    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+
+def _pairs_with(new, low, high):
+    for i, j in overlapping_pairs(low[new], high[new], low, high):
+        i = new[i]
+        once = (i < j) | ((i > j) & ~np.isin(j, new))
+        yield i[once], j[once]
+
+
+def _meet(s: np.ndarray, t: np.ndarray, common: np.ndarray) -> np.ndarray:
+    """Whether triangles s[i] and t[i] meet elsewhere than in vertices marked as common, (k, 3, 3) bool."""
+    bad = ~_apart(s, t, common.any(axis=1))
+    bad[bad] = ~_apart(t[bad], s[bad], common[bad].any(axis=2))
+    shared = common.sum(axis=(1, 2))
+    for count in (0, 1, 2):
+        rows = np.flatnonzero(bad & (shared == count))
+        if len(rows):
+            bad[rows] = _MEET[count](s[rows], t[rows], common[rows])
+    return bad
+
+
+def _apart(s, t, shared):
+    """Whether the plane of s has all corners of t that are not shared strictly on one side."""
+    above, below = np.ones(len(s), dtype=bool), np.ones(len(s), dtype=bool)
+    for corner in range(3):
+        free = ~shared[:, corner]
+        rows = np.flatnonzero(free & (above | below))
+        side = _side(s[rows], t[rows, corner])
+        above[rows] &= side > 0
+        below[rows] &= side < 0
+    return (above | below) & ~shared.all(axis=1)
+
+
+def _meet_apart(s, t, common):
+    bad = np.zeros(len(s), dtype=bool)
+    for first, second in ((s, t), (t, s)):
+        for i in range(3):
+            rows = np.flatnonzero(~bad)
+            bad[rows] = segment_meets_triangle(first[rows][:, (i, (i + 1) % 3)], second[rows])
+    return bad
+
+
+def _meet_at_vertex(s, t, common):
+    # What they share is convex, so it reaches from the common vertex to an edge opposite it.
+    k = np.arange(len(s))
+    i, j = common.any(axis=2).argmax(axis=1), common.any(axis=1).argmax(axis=1)
+    far_s = np.stack([s[k, (i + 1) % 3], s[k, (i + 2) % 3]], axis=1)
+    far_t = np.stack([t[k, (j + 1) % 3], t[k, (j + 2) % 3]], axis=1)
+    return segment_meets_triangle(far_s, t) | segment_meets_triangle(far_t, s)
+
+
+def _meet_at_edge(s, t, common):
+    # Both triangles are in one plane here; they overlap if they lie on one side of their edge.
+    k = np.arange(len(s))
+    i, j = (~common.any(axis=2)).argmax(axis=1), (~common.any(axis=1)).argmax(axis=1)
+    edge = np.stack([s[k, (i + 1) % 3], s[k, (i + 2) % 3]], axis=1)
+    turn_s = shadow_signs(np.concatenate([edge, s[k, i][:, None]], axis=1))
+    turn_t = shadow_signs(np.concatenate([edge, t[k, j][:, None]], axis=1))
+    return (turn_s * turn_t > 0).any(axis=1)
+
+
+_MEET = {0: _meet_apart, 1: _meet_at_vertex, 2: _meet_at_edge}
+
+
+def locate_in_mesh(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Where each query lies in the region behind a closed mesh: +1 inside, 0 on the mesh, -1 outside; exact.
+
+    Parameters
+    ----------
+    triangles : (m, 3, 3) float array
+        Closed, without self-crossings; all turned outward, or all inward.
+    queries : (k, 3) float array
+
+    Returns
+    -------
+    (k,) int8 array
+
+    Notes
+    -----
+    The crossings of a ray upward are counted with their sign. Where the ray meets an edge or a vertex
+    it is shifted, in thought, by an infinitesimal (ε, ε²) in x and y, the same for all triangles
+    (simulation of simplicity), so that every ray crosses whole triangles only.
+
+    References
+    ----------
+    Edelsbrunner and Mücke, Simulation of simplicity, 1990.
+
+    Examples
+    --------
+    >>> points = np.array([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]], dtype=float)
+    >>> tetrahedron = points[[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]]
+    >>> locate_in_mesh(tetrahedron, np.array([[0.5, 0.5, 0.5], [1, 1, 1], [2, 2, 2]]))
+    array([ 1,  0, -1], dtype=int8)
+    """
+    queries = np.asarray(queries, dtype=np.float64)
+    winding, touching = np.zeros(len(queries), dtype=np.int64), np.zeros(len(queries), dtype=bool)
+    for i, j in _under(triangles, queries):
+        t, q = triangles[j], queries[i]
+        turns = np.stack([_shifted_turn(t[:, (c, (c + 1) % 3)], q) for c in range(3)])
+        hit = (turns == turns[0]).all(axis=0) & (turns[0] != 0)
+        side = np.zeros(len(i), dtype=np.int8)
+        inside_box = (t.min(axis=1) <= q).all(axis=1) & (q <= t.max(axis=1)).all(axis=1)
+        needed = hit | inside_box
+        side[needed] = _side(t[needed], q[needed])
+        on = np.flatnonzero(inside_box & (side == 0))
+        touching[i[on[in_triangle(t[on], q[on])]]] = True
+        # A shadow that turns left belongs to a triangle that looks up: a ray from below it leaves the region.
+        above = hit & (side == -turns[0])
+        np.add.at(winding, i[above], turns[0, above])
+    result = np.where(winding != 0, 1, -1).astype(np.int8)
+    result[touching] = 0
+    return result
+
+
+def _under(triangles: np.ndarray, queries: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Pairs of a query and a triangle over (or around) it, in chunks."""
+    low, high = triangles.min(axis=1), triangles.max(axis=1)
+    shadow = queries[:, :2]
+    for i, j in overlapping_pairs(shadow, shadow, low[:, :2], high[:, :2]):
+        above = high[j, 2] >= queries[i, 2]
+        i, j = i[above], j[above]
+        for begin in range(0, len(i), _CHUNK):
+            yield i[begin : begin + _CHUNK], j[begin : begin + _CHUNK]
+
+
+def _shifted_turn(sides, queries):
+    """On which side of each edge's shadow the query is once it is shifted by (ε, ε²)."""
+    a, b = sides[:, 0, :2], sides[:, 1, :2]
+    turn = orientation(np.stack([a, b, queries[:, :2]], axis=1))
+    turn = np.where(turn == 0, np.sign(a[:, 1] - b[:, 1]), turn)
+    return np.where(turn == 0, np.sign(b[:, 0] - a[:, 0]), turn).astype(np.int8)
+
+
+def distance_to_triangles(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Distance from each query to the nearest triangle.
+
+    Parameters
+    ----------
+    triangles : (m, 3, 3) float array
+    queries : (k, 3) float array
+
+    Returns
+    -------
+    (k,) float array
+        Only triangles whose ball reaches nearer than the nearest corner are looked at.
+
+    Examples
+    --------
+    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]], dtype=float)
+    >>> distance_to_triangles(floor, np.array([[1, 1, 2], [7, 0, 4]]))
+    array([2., 5.])
+    """
+    triangles, queries = np.asarray(triangles, dtype=np.float64), np.asarray(queries, dtype=np.float64)
+    best = cKDTree(triangles.reshape(-1, 3)).query(queries)[0]
+    center = (triangles.min(axis=1) + triangles.max(axis=1)) / 2
+    radius = np.sqrt(((triangles - center[:, None]) ** 2).sum(axis=2)).max(axis=1)
+    # Triangles of one size together: large ones do not make the search around small ones coarse.
+    size = np.frexp(radius)[1]
+    for k in np.unique(size):
+        members = np.flatnonzero(size == k)
+        tree, reach = cKDTree(center[members]), radius[members].max() * (1 + 1e-12)
+        begin, count = 0, tree.query_ball_point(queries, best + reach, return_length=True)
+        total = np.cumsum(count)
+        while begin < len(queries):
+            done = total[begin - 1] if begin else 0
+            end = max(begin + 1, int(np.searchsorted(total, done + _CHUNK, side="right")))
+            near = tree.query_ball_point(queries[begin:end], best[begin:end] + reach)
+            i = np.repeat(np.arange(begin, end), count[begin:end])
+            j = members[np.concatenate([np.asarray(n, dtype=np.int64) for n in near])]
+            np.minimum.at(best, i, point_triangle_distance(queries[i], triangles[j]))
+            begin = end
+    return best
+
+
+def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Distance from point to triangle, row by row.
+
+    Examples
+    --------
+    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]], dtype=float)
+    >>> point_triangle_distance(np.array([[1.0, 1.0, 3.0]]), floor)
+    array([3.])
+    """
+    sides = [triangles[:, (i, (i + 1) % 3)] for i in range(3)]
+    distance = np.min([point_segment_distance(queries, side) for side in sides], axis=0)
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.sqrt((normal**2).sum(axis=1))
+    over = length > 0
+    for side in sides:
+        inward = np.cross(normal, side[:, 1] - side[:, 0])
+        over &= ((queries - side[:, 0]) * inward).sum(axis=1) > 0
+    height = np.abs(((queries - triangles[:, 0]) * normal).sum(axis=1))
+    return np.where(over, height / np.where(over, length, 1), distance)

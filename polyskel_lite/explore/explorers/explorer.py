@@ -1,0 +1,171 @@
+"""`Explorer`: what all explorers have in common: controls, a board, what to look for, numbers, a stand-in."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import contextmanager
+
+import ipywidgets
+import numpy as np
+
+from ...errors import PolyskelError
+from ..drawing_board import Board
+
+#: What the stored page says where the controls would be.
+NEEDS_KERNEL = (
+    "The controls of this picture need a running Python: open this chapter in JupyterLab "
+    "(<code>make lab</code>, or a launch button of this page) and run its cells."
+)
+
+
+class Explorer(ipywidgets.VBox):
+    """Controls over a drawing board, drawn anew whenever one of them changes.
+
+    A subclass makes its board and controls, calls ``super().__init__`` with them, and says in `draw` what
+    is on the board. It computes with the library's public functions only.
+
+    Parameters
+    ----------
+    board : Board
+    controls : dict of str to ipywidgets widget
+        By name, in the order of the page; each has a ``description`` that labels it. They are also
+        attributes: ``explorer.controls["n"]``.
+    look_for : str
+        One sentence: what to change, and what to look for.
+
+    Attributes
+    ----------
+    numbers : dict
+        What the line under the board says, as values: for tests, and for readers who go on computing.
+    error : PolyskelError or None
+        Why the last change could not be drawn; its sentence then stands under the board.
+
+    Examples
+    --------
+    >>> class Circle(Explorer):
+    ...     def __init__(self):
+    ...         radius = ipywidgets.FloatSlider(1, min=0.1, max=2, description="radius")
+    ...         board = Board((-3, -3, 3, 3), handles=[(0, 0)], alt="A disc.", handle_labels=["centre"])
+    ...         super().__init__(board, {"radius": radius}, "Make the disc grow: when does its area double?")
+    ...
+    ...     def draw(self):
+    ...         radius = self.controls["radius"].value
+    ...         self.board.draw("disc", kind="balls", circles=(self.board.handles, [radius]))
+    ...         self.tell(area=np.pi * radius**2)
+    >>> circle = Circle()
+    >>> circle.controls["radius"].value = 2
+    >>> circle.board.text
+    'area 12.57'
+    """
+
+    def __init__(self, board: Board, controls: Mapping[str, ipywidgets.Widget], look_for: str):
+        self.board, self.controls, self.look_for = board, dict(controls), look_for
+        self.numbers: dict[str, object] = {}
+        self.error: PolyskelError | None = None
+        self._drawing = False
+        hint = ipywidgets.HTML(f"<p style='margin:0;line-height:1.5'>{html.escape(look_for)}</p>")
+        for control in self.controls.values():
+            if not hasattr(control, "value"):  # a button: it observes its clicks itself
+                continue
+            # Labels are read in full, whatever their length.
+            control.style = {"description_width": "initial"}
+            room = 0.6 * len(control.description)
+            control.layout.width = f"{18 + room:.0f}em" if hasattr(control, "max") else "auto"
+            control.layout.margin = "2px 16px 2px 0"
+            control.observe(self._changed, "value")
+        board.observe(self._changed, "handles")
+        row = ipywidgets.HBox(list(self.controls.values()), layout={"flex_flow": "row wrap"})
+        super().__init__([hint, row, board])
+        self.add_class("psl-explorer")  # board.js looks for it
+        self.update()
+
+    #: Puts everything on the board for the present controls and handles; every explorer says how.
+    draw: Callable[[], None]
+
+    def update(self) -> None:
+        """Draw anew, and send what changed to the browser in one message.
+
+        A `PolyskelError` does not end the session: its sentence is shown, and the picture stays.
+        """
+        if self._drawing:  # draw() itself moved a handle or a slider
+            return
+        self._drawing = True
+        try:
+            with self.board.hold_sync():
+                try:
+                    self.draw()
+                    self.error = None
+                except PolyskelError as error:
+                    self.error = error
+                    self.board.text = str(error)
+        finally:
+            self._drawing = False
+
+    @contextmanager
+    def together(self):
+        """Change several controls or handles and draw once, at the end.
+
+        Examples
+        --------
+        >>> from polyskel_lite.explore.explorers import graphs
+        >>> explorer = graphs()
+        >>> with explorer.together():
+        ...     explorer.controls["voronoi"].value = False
+        ...     explorer.controls["gabriel"].value = True
+        """
+        self._drawing = True
+        try:
+            yield
+        finally:
+            self._drawing = False
+        self.update()
+
+    def tell(self, remark: str = "", /, **numbers) -> None:
+        """Set `numbers`, and the line under the board to a remark and the numbers with their names."""
+        self.numbers = numbers
+        line = " · ".join(f"{name.replace('_', ' ')} {said(value)}" for name, value in numbers.items())
+        self.board.text = f"{remark} {line}".strip()
+
+    def stand_in(self) -> str:
+        """HTML of the picture and the sentences for a page without a kernel.
+
+        Returns
+        -------
+        str
+            A figure with alternative text, what to look for, the numbers, and where the controls are.
+        """
+        return (
+            f'<figure class="psl-explorer" style="margin:0">{self.board.svg()}<figcaption>'
+            f'<div style="font-size:0.85em">{self.board.legend}</div>'
+            f"<p>{html.escape(self.look_for)}</p><p>{html.escape(self.board.text)}</p>"
+            f"<p><em>{NEEDS_KERNEL}</em></p></figcaption></figure>"
+        )
+
+    def _changed(self, change) -> None:
+        self.update()
+
+    def _repr_mimebundle_(self, **kwargs):
+        bundle = super()._repr_mimebundle_(**kwargs)
+        # The usual text lists all traits with their addresses; this one is the same each time.
+        return bundle | {
+            "text/plain": f"{type(self).__name__}: {self.look_for}",
+            "text/html": self.stand_in(),
+        }
+
+
+def said(value) -> str:
+    """A number as it is read: four digits, yes or no, Betti numbers in brackets.
+
+    Examples
+    --------
+    >>> said(0.123456), said(12), said(True), said((1, np.int64(2))), said("none")
+    ('0.1235', '12', 'yes', '(1, 2)', 'none')
+    """
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else "no"
+    if isinstance(value, float | np.floating):
+        return f"{value:.4g}"
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return "(" + ", ".join(said(entry) for entry in value) + ")"
+    return str(value)

@@ -1,0 +1,112 @@
+"""Explorer of sections 2.1 and 3.2: how density, place and noise of the samples change the skeleton."""
+
+from __future__ import annotations
+
+import ipywidgets
+import numpy as np
+
+from ...datasets import load
+from ...errors import InputError
+from ...graphs import delaunay
+from ...shapes import Shape, check_shape
+from ...skeletons import sk2
+from ..drawing_board import Board, box_around
+from .explorer import Explorer
+
+
+class Sampling(Explorer):
+    """See `sampling`."""
+
+    def __init__(self, shape: Shape | None = None, n: int = 100, seed: int = 0):
+        self.shape = load("horse") if shape is None else shape
+        check_shape(self.shape)
+        if self.shape.dimension != 2:
+            raise InputError("the explorer of samples is for shapes of the plane; this one is a solid.")
+        rings = [self.shape.points[ring] for ring in self.shape.rings()]
+        low, high = 3 * len(rings), max(400, 6 * len(rings))
+        if not low <= n <= high:
+            raise InputError(f"n is {n}; choose from {low} to {high}, the ends of the slider.")
+        self._size = float(np.hypot(*np.ptp(self.shape.points, axis=0)))
+        # As many as there can be samples: the noise of the first hundred does not depend on the others.
+        self._shifts = np.random.default_rng(seed).normal(size=(high, 2))
+        board = Board(box_around(self.shape.points, 0.08))
+        board.draw("shape", "shape", polygons=rings, label="shape X")
+        board.draw("outline", "shape", polygons=rings, fill=False, order=3)  # over the balls
+        controls = {
+            "n": ipywidgets.IntSlider(n, min=low, max=high, description="samples n"),
+            "start": ipywidgets.FloatSlider(0.0, min=0, max=0.95, step=0.05, description="shift, in steps"),
+            "noise": ipywidgets.FloatSlider(0.0, min=0, max=2, step=0.05, description="noise, % of the size"),
+            "polyball": ipywidgets.Checkbox(False, description="polyball of Sk2", indent=False),
+        }
+        super().__init__(
+            board,
+            controls,
+            "Raise n: the skeleton settles down once the samples are dense. Then shift them, and add a "
+            "little noise: which branches jump, and which stay?",
+        )
+
+    def samples(self) -> np.ndarray:
+        """The samples E for the present sliders, (n, 2)."""
+        n, start, noise = (self.controls[name].value for name in ("n", "start", "noise"))
+        E = self.shape.sample(n, start)
+        return E + 0.01 * noise * self._size * self._shifts[: len(E)] if noise else E
+
+    def draw(self) -> None:
+        board, polyball = self.board, self.controls["polyball"].value
+        graph = delaunay(self.samples())
+        skeleton = sk2(self.shape, graph)
+        radius = self.shape.covering_radius(graph.points)
+        board.draw("samples", "samples", points=graph.points, label="samples E")
+        board.draw("skeleton", "sk2", lines=skeleton.segments(), label="Sk_2")
+        Y = skeleton.balls() if polyball and len(skeleton.vertices) else None
+        board.draw("polyball", "balls", circles=(Y.centers, Y.radii) if Y else ([], []), label="Y_w")
+        betti = skeleton.betti()
+        board.alt = (
+            f"A shape, {len(graph.points)} samples, skeleton Sk2 of {betti[0]} pieces and {betti[1]} loops"
+            + (", over the union of the Delaunay balls with centres in the shape." if polyball else ".")
+        )
+        self.tell(
+            n=len(graph.points),
+            covering_radius=radius,
+            density_w=1 / radius,
+            vertices=len(skeleton.vertices),
+            edges=len(skeleton.edges),
+            ends=int((np.bincount(skeleton.edges.ravel()) == 1).sum()),
+            Betti_numbers_of_Sk2=betti,
+            those_of_the_shape=self.shape.betti(),
+        )
+
+
+def sampling(shape: Shape | None = None, n: int = 100, seed: int = 0) -> Sampling:
+    """Explore what density, place and noise of the samples do to the skeleton Sk2 (sections 2.1, 3.2).
+
+    Parameters
+    ----------
+    shape : Shape, optional
+        Of the plane, by default the horse.
+    n : int
+        Number of samples at first.
+    seed : int
+        Of the noise: the same seed moves the same sample the same way.
+
+    Returns
+    -------
+    Sampling
+        An `Explorer`. Controls: ``n``; ``start``, the shift along the boundary as a share of a step;
+        ``noise``, the standard deviation in each direction, in percent of the diagonal of the shape's box;
+        ``polyball``, the union of the balls of Sk2 (on or off).
+
+    Raises
+    ------
+    InputError
+        If `shape` is not a shape of the plane, or `n` is not on the slider.
+
+    Examples
+    --------
+    >>> explorer = sampling()
+    >>> coarse = explorer.numbers["covering_radius"]
+    >>> explorer.controls["n"].value = 200
+    >>> round(coarse / explorer.numbers["covering_radius"], 1)
+    2.0
+    """
+    return Sampling(shape, n, seed)

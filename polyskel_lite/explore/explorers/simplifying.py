@@ -1,0 +1,230 @@
+"""Thresholds and criteria of the simplification, on shapes in the plane and in space (section 4.3)."""
+
+from __future__ import annotations
+
+import ipywidgets
+import numpy as np
+
+from ... import datasets
+from ...containment import DelaunayShape, conform, delaunay_shape
+from ...drawing import chains
+from ...shapes import Shape
+from ...simplification import Hierarchy, Ways, end_vertices, hierarchy, paths_back, ways
+from ...skeletons import sk0
+from ..skeleton_viewer import viewer
+from ..drawing_board import Board, box_around
+from .explorer import Explorer
+
+LOOK_FOR = (
+    "Move the threshold from left to right. Look for the order in which branches go, small ripples of the "
+    "boundary first, and for the Betti numbers, which stay. Which threshold leaves what you would draw by "
+    "hand? Then choose the criterion as printed, at the same threshold."
+)
+LOOK_FOR_3D = (
+    "Move the threshold, once with each strategy. Surface skeletons lose sheets from their rims, wireframes "
+    "lose branches. Look for the Betti numbers, which stay, and for what the criteria as printed remove."
+)
+ALT = "A shape, its simplified shape tinted, its skeleton dotted, and what is left of it as a red line."
+
+
+def threshold_layers(h: Hierarchy, threshold: float, found: Ways | None = None) -> dict[str, dict]:
+    """What is drawn at a threshold, for `polyskel_lite.explore.Board`.
+
+    Parameters
+    ----------
+    h : Hierarchy
+        In 2D.
+    threshold : float
+        In radians.
+    found : Ways, optional
+        Of the hierarchy, if they are already there.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> h = psl.hierarchy(psl.datasets.load("gear", n=60))
+    >>> layers = threshold_layers(h, np.pi)
+    >>> len(layers["skeleton"]["lines"]) == len(h.skeleton(np.pi).edges)
+    True
+    """
+    points, P = h.P.tessellation.points, h.shape(threshold)
+    ends = h.simplices[end_vertices(h, threshold)]
+    places, radii = h.P.tessellation.circumcenters[ends], h.P.tessellation.circumradii[ends]
+    return {
+        "simplified": {
+            "kind": "delaunay",
+            "polygons": [points[path] for path in chains(P.boundary())],
+            "label": "simplified shape",
+            "order": 1.2,
+        },
+        "skeleton": {"kind": "sk0", "lines": h.skeleton(threshold).segments(), "label": "skeleton left"},
+        "ways": {
+            "kind": "sk2",
+            "lines": paths_back(h, threshold, found),
+            "label": "the way its ends have come",
+        },
+        "balls": {"kind": "balls", "circles": (places, radii), "fill": False, "label": "balls of its ends"},
+        "ends": {"kind": "sk2", "points": places, "width": 1.4},
+    }
+
+
+def threshold_numbers(h: Hierarchy, threshold: float) -> dict[str, object]:
+    """The simplified skeleton in numbers.
+
+    Returns
+    -------
+    dict
+        ``threshold`` as a multiple of π, ``simplices`` kept, ``of`` how many, ``ends`` (the branches that the
+        paper counts) and the ``Betti_numbers`` of the skeleton, in 3D of the simplified shape: they are the
+        same, and quicker to compute.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> numbers = threshold_numbers(psl.hierarchy(psl.datasets.load("gear")), 2 * np.pi)
+    >>> numbers["threshold"], numbers["ends"], numbers["Betti_numbers"]
+    (2.0, 0, (1, 1))
+    """
+    return {
+        "threshold": round(threshold / np.pi, 6),
+        "simplices": int((h.level >= threshold).sum()),
+        "of": len(h.level),
+        "ends": h.branches(threshold).graph["branches"],
+        "Betti_numbers": (h.skeleton if h.P.dimension == 2 else h.shape)(threshold).betti(),
+    }
+
+
+def threshold_text(numbers: dict[str, object]) -> str:
+    """`threshold_numbers` as a sentence.
+
+    Examples
+    --------
+    >>> threshold_text({"threshold": 0.5, "simplices": 9, "of": 12, "ends": 1, "Betti_numbers": (1, 0)})
+    'Threshold 0.50 π: 9 of 12 triangles stay, the skeleton has 1 branch that ends, Betti numbers (1, 0).'
+    """
+    branches = "1 branch that ends" if numbers["ends"] == 1 else f"{numbers['ends']} branches that end"
+    return (
+        f"Threshold {numbers['threshold']:.2f} π: {numbers['simplices']} of {numbers['of']} triangles stay, "
+        f"the skeleton has {branches}, Betti numbers {numbers['Betti_numbers']}."
+    )
+
+
+class Thresholds(Explorer):
+    """The explorer that `thresholds` returns for shapes in the plane."""
+
+    def __init__(self, P: DelaunayShape):
+        self.P = P
+        self._made: dict[str, tuple[Hierarchy, Ways]] = {}
+        threshold = ipywidgets.FloatSlider(
+            1.0, min=0, max=6, step=0.05, readout_format=".2f", description="threshold (multiples of π)"
+        )
+        criterion = ipywidgets.Dropdown(options=["corrected", "as printed"], description="criterion")
+        ends = ipywidgets.Dropdown(
+            options=["nothing", "their balls", "the way they have come"], description="show at the ends"
+        )
+        board = Board(box_around(P.tessellation.points, 0.03), alt=ALT)
+        outline = [P.tessellation.points[path] for path in chains(P.boundary())]
+        board.draw("shape", kind="shape", polygons=outline, label="shape")
+        board.draw("all", kind="complement", lines=sk0(P).segments(), label="whole skeleton")
+        super().__init__(board, {"threshold": threshold, "criterion": criterion, "ends": ends}, LOOK_FOR)
+
+    @property
+    def hierarchy(self) -> Hierarchy:
+        """That of the chosen criterion."""
+        return self._chosen[0]
+
+    @property
+    def _chosen(self) -> tuple[Hierarchy, Ways]:
+        criterion = self.controls["criterion"].value
+        if criterion not in self._made:
+            h = hierarchy(self.P, criterion=criterion)
+            self._made[criterion] = h, ways(h)
+        return self._made[criterion]
+
+    def draw(self) -> None:
+        """Draw what is left at the chosen threshold."""
+        h, found = self._chosen
+        threshold, ends = self.controls["threshold"].value * np.pi, self.controls["ends"].value
+        seen = {"ways": ends == "the way they have come", "balls": ends == "their balls"}
+        seen["ends"] = any(seen.values())
+        for name, layer in threshold_layers(h, threshold, found).items():
+            self.board.draw(name, **layer, visible=seen.get(name, True))
+        numbers = threshold_numbers(h, threshold)
+        self.tell(threshold_text(numbers))
+        self.numbers = numbers
+
+
+class SolidThresholds(ipywidgets.VBox):
+    """What `thresholds` returns for solids: the skeleton viewer with both strategies and both criteria.
+
+    Attributes
+    ----------
+    picture : SkeletonViewer
+        Its ``threshold`` and ``strategy`` follow the reader's hand, and it says the numbers.
+    hierarchies : list of Hierarchy
+    """
+
+    def __init__(self, P: DelaunayShape):
+        self.hierarchies = [
+            hierarchy(P, strategy, criterion)
+            for strategy in ("surface", "wireframe")
+            for criterion in ("corrected", "as printed")
+        ]
+        about = "A solid and its simplified skeleton."
+        self.picture = viewer(self.hierarchies, threshold=np.pi / 3, alt=about, look=LOOK_FOR_3D)
+        super().__init__([self.picture])
+
+    @property
+    def hierarchy(self) -> Hierarchy:
+        """That of the strategy and the criterion chosen."""
+        named = {f"{h.strategy}, {h.criterion}": h for h in self.hierarchies}
+        return named[self.picture.strategy]
+
+    @property
+    def numbers(self) -> dict[str, object]:
+        """See `threshold_numbers`."""
+        return threshold_numbers(self.hierarchy, self.picture.threshold)
+
+    def stand_in(self) -> str:
+        """HTML for a page without a kernel: the viewer works there too."""
+        return self.picture.to_html()
+
+    def _repr_mimebundle_(self, **kwargs):
+        bundle = super()._repr_mimebundle_(**kwargs)
+        return bundle | {"text/plain": f"SolidThresholds: {LOOK_FOR_3D}", "text/html": self.stand_in()}
+
+
+def thresholds(shape: Shape | DelaunayShape | None = None) -> Thresholds | SolidThresholds:
+    """Explore thresholds, strategies and criteria of the simplification (section 4.3).
+
+    Parameters
+    ----------
+    shape : Shape or DelaunayShape, optional
+        By default the leaf. A `Shape` is refined first, with `polyskel_lite.conform`.
+
+    Returns
+    -------
+    Thresholds or SolidThresholds
+        A widget for JupyterLab; in space it holds a `viewer`. ``.numbers`` tells what is
+        shown, ``.hierarchy`` is the one chosen.
+
+    Raises
+    ------
+    ContourContainmentError
+        If a solid cannot be refined.
+
+    Examples
+    --------
+    >>> explorer = thresholds(datasets.load("lake"))
+    >>> explorer.controls["threshold"].value = 2
+    >>> explorer.numbers["Betti_numbers"]
+    (1, 2)
+    >>> solid = thresholds(datasets.load("fourbranch"))
+    >>> solid.picture.strategy = "wireframe, corrected"
+    >>> solid.picture.threshold = 2 * np.pi
+    >>> solid.numbers["ends"]
+    4
+    """
+    shape = datasets.load("leaf") if shape is None else shape
+    P = shape if isinstance(shape, DelaunayShape) else delaunay_shape(conform(shape))
+    return Thresholds(P) if P.dimension == 2 else SolidThresholds(P)

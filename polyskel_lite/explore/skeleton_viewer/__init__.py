@@ -1,0 +1,3 @@
+"""The skeleton viewer."""
+
+from .widget import SkeletonViewer, viewer

@@ -1,0 +1,155 @@
+"""Distance from points to the boundary of a union of balls in space, exact to rounding.
+
+Outside, it is the distance to the nearest ball. Inside, the nearest point of the boundary is straight ahead
+of a centre on a patch of its sphere, or straight ahead of the middle of a circle on one of its arcs, or the
+end of an arc. Arcs and spheres that are farther than the best point found so far are never looked at.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .discs import TURN
+from .pairs import rounding
+from .power import PowerTriangulation
+from .sphere_caps import Caps, caps
+from .spheres import SphereBoundary
+
+_CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
+_BELIEVED = 1e-12  # share of the size: where this decides, the point is taken for the end of an arc
+_PIECE = np.pi / 4  # arcs are found by pieces that turn by no more than this
+
+
+def distance_to_boundary(
+    queries: np.ndarray,
+    centers: np.ndarray,
+    radii: np.ndarray,
+    power: PowerTriangulation,
+    boundary: SphereBoundary,
+) -> np.ndarray:
+    """Measure the distance from points inside or outside to the boundary of a union of balls.
+
+    Parameters
+    ----------
+    queries : (m, 3) float array
+    centers : (k, 3) float array
+    radii : (k,) float array
+        No two balls equal.
+    power : PowerTriangulation
+    boundary : SphereBoundary
+        Both of the same balls.
+
+    Returns
+    -------
+    (m,) float array
+        Never negative.
+
+    Examples
+    --------
+    From the midpoint of two unit balls the nearest points are on their circle:
+
+    >>> import numpy as np
+    >>> from polyskel_lite.polyballs.power import power_triangulation
+    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
+    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
+    >>> power = power_triangulation(centers, radii)
+    >>> found = sphere_boundary(centers, radii, power)
+    >>> queries = np.array([(0.5, 0, 0), (0, 0, 0), (-0.7, 0, 0), (3, 0, 0)])
+    >>> distance_to_boundary(queries, centers, radii, power, found).round(4).tolist()
+    [0.866, 1.0, 0.3, 1.0]
+    """
+    distance = _to_balls(queries, centers, radii)
+    # A point on many spheres that surround it is in no open ball, but inside the union all the same.
+    believed = _BELIEVED * (np.abs(centers).max() + radii.max())
+    inside = np.flatnonzero(distance <= believed)
+    if len(inside):
+        points = queries[inside]
+        best = _to_arcs(points, boundary)
+        _to_patches(points, centers, radii, boundary.exposed, caps(centers, radii, power), best)
+        distance[inside] = best
+    return distance
+
+
+def _to_balls(queries, centers, radii) -> np.ndarray:
+    """Distance to the nearest ball, negative inside."""
+    nearest = np.empty(len(queries))
+    step = max(1, _CHUNK // len(radii))
+    for first in range(0, len(queries), step):
+        rows = slice(first, first + step)
+        nearest[rows] = (_lengths(queries[rows], centers) - radii).min(axis=1)
+    return nearest
+
+
+def _lengths(points, centers) -> np.ndarray:
+    """Distances of all points from all centres, (m, k), without the cancellation of |p|² - 2 p·c + c²."""
+    return np.sqrt(sum((points[:, None, axis] - centers[:, axis]) ** 2 for axis in range(3)))
+
+
+def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
+    """Distance to the nearest arc, ends included; infinite if there is none."""
+    row, start, end = boundary.arcs
+    if not len(row):
+        return np.full(len(points), np.inf)
+    circles = boundary.circles
+    size = np.ceil((end - start) / _PIECE).astype(np.intp)
+    arc = np.repeat(np.arange(len(row)), size)
+    number = np.arange(len(arc)) - np.repeat(np.cumsum(size) - size, size)
+    half = ((end - start) / size / 2)[arc]
+    middles = circles.points(row[arc], start[arc] + (2 * number + 1) * half)
+    ends = circles.points(np.tile(row, 2), np.concatenate([start, end]))
+    marks = cKDTree(np.concatenate([ends, boundary.corners, middles]))
+    best = marks.query(points)[0]
+    reach = half * circles.radii[row[arc]]
+    # One search radius for pieces of about the same length, so that short ones are not searched for in vain.
+    octave = np.frexp(reach)[1]
+    for value in np.unique(octave):
+        group = np.flatnonzero(octave == value)
+        near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
+        point = np.repeat(np.arange(len(points)), [len(found) for found in near])
+        if not len(point):
+            continue
+        piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
+        pairs = np.unique(point * len(row) + arc[piece])
+        point, found = pairs // len(row), pairs % len(row)
+        gap = _ahead(points[point], circles, row[found], start[found], end[found])
+        np.minimum.at(best, point, gap)
+    return best
+
+
+def _ahead(points, circles, circle, start, end) -> np.ndarray:
+    """Distance to the point of the circle straight ahead of its middle, infinite if it is not on the arc."""
+    x, y, z = np.einsum("mck,mk->cm", circles.frames[circle], points - circles.centers[circle])
+    turn = np.arctan2(y, x) - start
+    on = (end - start >= TURN) | (turn % TURN <= end - start)
+    return np.where(on, np.hypot(z, np.hypot(x, y) - circles.radii[circle]), np.inf)
+
+
+def _to_patches(points, centers, radii, exposed, covered: Caps, best) -> None:
+    """Lower `best` to the distance of the nearest point straight ahead of a centre that is in no cap."""
+    balls = np.flatnonzero(exposed)
+    size = np.diff(covered.first)
+    # A foot on the edge of a cap is left to the arc there, if there is one: where many edges meet in a point
+    # that they surround, there is none.
+    ball = np.repeat(np.arange(len(radii)), size)
+    edge = _BELIEVED * np.sqrt(np.maximum(1 - covered.heights**2, 0))
+    heights = covered.heights - edge - rounding(centers, radii, ball, ball) / radii[ball]
+    step = max(1, _CHUNK // len(balls))
+    for first in range(0, len(points), step):
+        far = _lengths(points[first : first + step], centers[balls])
+        gap = np.abs(far - radii[balls])
+        row, column = np.nonzero(gap < best[first : first + step, None])
+        far, gap = far[row, column], gap[row, column]
+        point, ball = first + row, balls[column]
+        rank = 0
+        while len(point):
+            free = size[ball] <= rank
+            np.minimum.at(best, point[free], gap[free])
+            # What the larger caps leave is tried on the next smaller one, if it can still be the nearest.
+            left = ~free & (gap < best[point])
+            point, ball, far, gap = point[left], ball[left], far[left], gap[left]
+            cap = covered.first[ball] + rank
+            along = ((points[point] - centers[ball]) * covered.axes[cap]).sum(axis=1)
+            out = along <= heights[cap] * far
+            point, ball, far, gap = point[out], ball[out], far[out], gap[out]
+            rank += 1

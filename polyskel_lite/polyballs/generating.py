@@ -1,0 +1,151 @@
+"""Generating balls of a polyball: which ones are needed, which meet no other, which only meet in pairs."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from .pairs import lengths, meeting_pairs, rounding
+
+# A ball reaches a place when it misses it by less than this share of its radius.
+_REACH = 1e-12
+# A ball is needed if a hole between the others reaches deeper into it than this share of its radius.
+_DEPTH = 1e-9
+
+
+def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """The balls that are not equal, up to rounding, to one before them, (d,) int array.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> distinct(np.array([(0.0, 0), (1, 0), (0, 0), (0, 0)]), np.array([1, 1, 1, 2])).tolist()
+    [0, 1, 3]
+    """
+    first = np.unique(np.column_stack([centers, radii]), axis=0, return_index=True)[1]
+    first.sort()
+    centers, radii = centers[first], radii[first]
+    size = np.abs(centers).max(axis=1) + radii
+    near = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray")
+    i, j = near.T
+    same = lengths(centers[i] - centers[j]) + np.abs(radii[i] - radii[j]) <= 1e-12 * np.minimum(
+        radii[i], radii[j]
+    )
+    keep = np.ones(len(first), dtype=bool)
+    keep[np.maximum(i, j)[same]] = False
+    return first[keep]
+
+
+def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
+    """Leave out balls that lie in the union of the others, smallest first; the indices of the rest, sorted.
+
+    Parameters
+    ----------
+    centers : (k, N) float array
+    radii : (k,) float array
+        No two balls equal.
+    exposed : (k,) bool array
+        Balls with a piece of the boundary: these are needed.
+    hidden : (k,) bool array
+        Balls with an empty power cell: these are not, all at once.
+    room_in : callable
+        ``(centers, radii, point) -> float``, the radius of the largest ball around a point that lies in the
+        union, negative if the point does not.
+
+    Examples
+    --------
+    Three discs around a small gap, and a fourth one that fills it:
+
+    >>> import numpy as np, polyskel_lite as psl
+    >>> centers = np.array([(1.1, 0), (-0.55, 0.9526), (-0.55, -0.9526), (0, 0.05)])
+    >>> def room(c, r, point):
+    ...     Y = psl.Polyball(c, r)
+    ...     return Y.boundary_distance([point])[0] if Y.contains([point])[0] else -1.0
+    >>> radii, outer = np.array([1, 1, 1, 0.3]), np.array([True, True, True, False])
+    >>> needed(centers, radii, outer, np.zeros(4, dtype=bool), room).tolist()
+    [0, 1, 2, 3]
+    """
+    keep = ~hidden | exposed
+    candidates = np.flatnonzero(keep & ~exposed)
+    if not len(candidates):
+        return np.flatnonzero(keep)
+    i, j = meeting_pairs(centers, radii)
+    pairs = np.concatenate([np.column_stack([i, j]), np.column_stack([j, i])])
+    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
+    first = np.searchsorted(pairs[:, 0], np.arange(len(radii) + 1))
+    for ball in candidates[np.argsort(radii[candidates], kind="stable")]:
+        others = pairs[first[ball] : first[ball + 1], 1]
+        others = others[keep[others]]
+        # Its sphere is covered, so a place that it covers alone is in a hole between the others. The corners
+        # of the hole may all be on its sphere (Delaunay balls), so that only the distance to arcs tells.
+        room = room_in(centers[others], radii[others], centers[ball])
+        keep[ball] = bool(room < (1 - _DEPTH) * radii[ball])
+    return np.flatnonzero(keep)
+
+
+def lonely(centers, radii) -> np.ndarray:
+    """The balls that meet no other one (definition 2), sorted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> lonely(np.array([(0.0, 0), (1, 0), (5, 0)]), np.ones(3)).tolist()
+    [2]
+    """
+    i, j = meeting_pairs(centers, radii)
+    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j] > rounding(centers, radii, i, j)
+    met = np.zeros(len(radii), dtype=bool)
+    met[i[~apart]] = met[j[~apart]] = True
+    return np.flatnonzero(~met)
+
+
+def isolated_lenses(centers, radii, pairs, circle_centers, circle_radii, axes) -> np.ndarray:
+    """Those of the crossing pairs whose common part meets no third ball (definition 3), (q,) bool array.
+
+    Parameters
+    ----------
+    centers : (k, N) float array
+    radii : (k,) float array
+    pairs : (q, 2) int array
+    circle_centers, circle_radii, axes : (q, N), (q,), (q, N) float arrays
+        Where their spheres cross: a circle in space, two points in the plane, around a unit axis.
+
+    Examples
+    --------
+    The third ball stays away from the lens of the first two, then not:
+
+    >>> import numpy as np
+    >>> pair, middle, axis = np.array([(0, 1)]), np.array([(0.5, 0, 0)]), np.array([(1.0, 0, 0)])
+    >>> for x in (2.5, 1.5):
+    ...     balls = np.array([(0.0, 0, 0), (1, 0, 0), (x, 0, 0)])
+    ...     isolated_lenses(balls, np.ones(3), pair, middle, np.array([0.75**0.5]), axis).tolist()
+    [True]
+    [False]
+    """
+    alone = np.ones(len(pairs), dtype=bool)
+    for row, (i, j) in enumerate(pairs.tolist()):
+        others = np.setdiff1d(np.arange(len(radii)), (i, j))
+        gap = _distance_to_lens(
+            centers[others], centers[[i, j]], radii[[i, j]], circle_centers[row], circle_radii[row], axes[row]
+        )
+        alone[row] = not (gap <= radii[others] * (1 + _REACH)).any()
+    return alone
+
+
+def _distance_to_lens(points, centers, radii, circle_center, circle_radius, axis) -> np.ndarray:
+    """Distance from points to the common part of two balls."""
+    nearest = np.full(len(points), np.inf)
+    for a, b in ((0, 1), (1, 0)):
+        offset = points - centers[a]
+        far = lengths(offset)
+        outside = np.maximum(far - radii[a], 0)
+        foot = (
+            centers[a] + offset * (np.minimum(far, radii[a]) / np.maximum(far, np.finfo(float).tiny))[:, None]
+        )
+        # The nearest point of one ball, if it is in the other one too, is the nearest of both.
+        both = lengths(foot - centers[b]) <= radii[b]
+        nearest[both] = np.minimum(nearest[both], outside[both])
+    offset = points - circle_center
+    along = offset @ axis
+    across = np.sqrt(np.maximum((offset**2).sum(axis=1) - along**2, 0))
+    return np.where(np.isinf(nearest), np.hypot(along, across - circle_radius), nearest)

@@ -1,0 +1,292 @@
+"""The exact skeleton of a union of balls (appendix A, theorems 3 and 4 as corrected).
+
+Between two singular points p and q the skeleton is a convex piece of their Voronoi face: the points whose
+nearest boundary points are p and q. Its corners are Voronoi vertices whose ball lies in the union, and
+centres of balls through both p and q. So no face is clipped numerically: the corners are found one by one,
+and sorted.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import nnls
+from scipy.spatial import cKDTree
+
+from ..errors import TessellationError
+from ..exact import Polygons, components, edge_rings, unique_rows
+from ..skeletons import Skeleton
+from .incidence import Incidence, gather
+from .power import PowerTriangulation, regular_triangulation
+
+# Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one,
+# and a vertex is known to some 1e-12 of its radius times what thin simplices lose.
+_SAME = 1e-9
+# Cospherical points are triangulated as if lifted by up to this share of the squared distance to the next.
+# Far more than rounding, so that cells around one Voronoi vertex never contain flat simplices.
+_LIFT = 1e-6
+# A polygon narrower than this share of its length is a line.
+_FLAT = 1e-8
+# A vector that misses a cone by less than this share of its length is on its border, and the cone is closed:
+# corners are known to some 1e-12 of their balls, and directions to them lose up to three more digits.
+_CONE = 1e-9
+# Corners of a simplex, or directions to centres, this near to one plane fix no point in it.
+_PLANE = 1e-12
+
+
+class Boundary(NamedTuple):
+    """What the skeleton needs to know about the boundary of a union of balls.
+
+    Attributes
+    ----------
+    corners : (s, N) float array
+        Singular points.
+    exposed : (k,) bool array
+        Balls with a piece of their sphere on the boundary.
+    alone : (k,) bool array
+        Balls whose centre is in the skeleton whatever else is.
+    bridges : (m, 2) int array
+        In space, pairs of balls whose circle is on the boundary without any singular point on it.
+    """
+
+    corners: np.ndarray
+    exposed: np.ndarray
+    alone: np.ndarray
+    bridges: np.ndarray
+
+
+class _Faces(NamedTuple):
+    """Vertices of the skeleton on each Voronoi face of the singular points: rows (face, vertex), sorted."""
+
+    generators: np.ndarray
+    face: np.ndarray
+    vertex: np.ndarray
+
+
+def ball_skeleton(centers, radii, boundary: Boundary, origin) -> Skeleton:
+    """Build the skeleton of a union of balls from the features of its boundary.
+
+    Parameters
+    ----------
+    centers : (k, N) float array
+    radii : (k,) float array
+        No two balls equal.
+    boundary : Boundary
+    origin : (N,) float array
+        Added to the result.
+
+    Returns
+    -------
+    Skeleton
+
+    References
+    ----------
+    Attali and Montanvert 1997, appendix A.2; Amenta and Kolluri, The medial axis of a union of balls, 2001.
+
+    Examples
+    --------
+    Three balls in a row, every two of which cross in a whole circle or not at all:
+
+    >>> import numpy as np
+    >>> centers, radii = np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3)
+    >>> whole = np.ones(3, dtype=bool)
+    >>> bare = Boundary(np.zeros((0, 3)), whole, whole, np.array([(0, 1), (1, 2)]))
+    >>> ball_skeleton(centers, radii, bare, np.zeros(3)).edges.tolist()
+    [[0, 1], [1, 2]]
+    """
+    n = centers.shape[1]
+    vertices, sizes = centers, radii
+    edges, polygons = [boundary.bridges], Polygons()
+    if len(boundary.corners):
+        corners, on = gather(boundary.corners, vertices, radii, origin)
+        t = _triangulate(corners)
+        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii)
+        lines = _faces(t, label, on, boundary.exposed, n)
+        edges.append(_chains(lines, vertices))
+        if n == 3:
+            sheets = _faces(t, label, on, boundary.exposed, 2)
+            polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
+            edges += [flat, polygons.sides()]
+    edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
+    used = np.zeros(len(vertices), dtype=bool)
+    used[: len(radii)] = boundary.alone
+    used[edges] = True
+    number = np.cumsum(used) - 1
+    return Skeleton(
+        vertices=vertices[used] + origin,
+        radii=sizes[used],
+        simplices=np.full(int(used.sum()), -1),
+        edges=number[edges],
+        polygons=Polygons(number[polygons.corners], polygons.sizes),
+    )
+
+
+def _triangulate(corners) -> PowerTriangulation:
+    """The Delaunay simplices of the singular points, ghosts around them, ties broken one way for all."""
+    near = cKDTree(corners).query(corners, k=2)[0][:, 1] if len(corners) > 1 else np.zeros(1)
+    near[~np.isfinite(near)] = 0
+    lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
+    size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
+    try:
+        return regular_triangulation(corners, lift, size, hide=False)
+    except TessellationError:  # where points crowd together, lifting them by less than rounding does harm
+        return regular_triangulation(corners, np.zeros(len(corners)), size, hide=False)
+
+
+def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
+    """The skeleton vertex of each simplex (-1: none), and places and radii of all vertices, balls first."""
+    k, real = len(radii), t.real()
+    label = np.full(len(t.simplices), -1)
+    row, ball = on.common(t.simplices[real])
+    first = np.unique(row, return_index=True)[1]
+    label[np.flatnonzero(real)[row[first]]] = ball[first]
+    rest = np.flatnonzero(real & (label < 0))
+    place, size = _circumballs(corners[t.simplices[rest]], t.orthocenters[rest])
+    # The same ball may be one of the given ones, or that of a neighbouring simplex.
+    distance, nearest = cKDTree(centers).query(place)
+    given = distance <= _SAME * size
+    given &= np.abs(radii[nearest] - size) <= _SAME * size
+    label[rest[given]] = nearest[given]
+    rest, place, size = rest[~given], place[~given], size[~given]
+    kept = _in_union(t.simplices[rest], place, corners, on, centers)
+    rest, place, size = rest[kept], place[kept], size[kept]
+    number = np.full(len(t.simplices), -1)
+    number[rest] = np.arange(len(rest))
+    pairs = np.column_stack(
+        [np.repeat(np.arange(len(rest)), t.simplices.shape[1]), number[t.neighbors[rest]].ravel()]
+    )
+    pairs = pairs[pairs[:, 1] >= 0]
+    twins = pairs[_distance(place, pairs) <= _SAME * size[pairs].min(axis=1)]
+    count, group = components(len(rest), twins)
+    representative = np.zeros(count, dtype=np.int64)
+    representative[group] = np.arange(len(rest))
+    label[rest] = k + group
+    return label, np.concatenate([centers, place[representative]]), np.append(radii, size[representative])
+
+
+def _distance(points, pairs) -> np.ndarray:
+    return np.sqrt(((points[pairs[:, 0]] - points[pairs[:, 1]]) ** 2).sum(axis=1))
+
+
+def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
+    """Centres and radii of the balls through the corners (m, N+1, N) of simplices."""
+    legs = corners[:, 1:] - corners[:, :1]
+    flat = np.abs(np.linalg.det(legs)) <= _PLANE * np.prod(np.sqrt((legs**2).sum(axis=2)), axis=1)
+    legs[flat] = np.eye(corners.shape[2])
+    place = corners[:, 0] + np.linalg.solve(legs, (legs**2).sum(axis=2)[:, :, None])[:, :, 0] / 2
+    place[flat] = fallback[flat]
+    return place, np.sqrt(((place[:, None] - corners) ** 2).sum(axis=2)).mean(axis=1)
+
+
+def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
+    """Which Voronoi balls of singular points lie in the union of the given balls, (m,) bool array.
+
+    A Voronoi ball around m that passes through the singular point p lies in the union if and only if m - p is
+    a positive combination of the directions from p to the centres of its balls. All corners of the simplex
+    agree on that; the one that is clearest decides.
+    """
+    m, n = place.shape
+    own = on.balls_of_each(n)
+    inside, clearest = np.zeros(m, dtype=bool), np.zeros(m)
+    for p in simplices.T:
+        towards = centers[own[p]] - corners[p][:, None]
+        towards /= np.sqrt((towards**2).sum(axis=2, keepdims=True))
+        offset = place - corners[p]
+        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
+        towards[~clear] = np.eye(n)
+        share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
+        margin = np.where(clear, share / np.sqrt((offset**2).sum(axis=1)), 0)
+        better = np.abs(margin) > clearest
+        inside[better], clearest[better] = margin[better] > -_CONE, np.abs(margin[better])
+    # Where more than N balls meet in every corner, look for the combination itself.
+    for row in np.flatnonzero(clearest < _FLAT):
+        inside[row] = all(
+            _in_cone(place[row] - corners[p], centers[on.balls(p)] - corners[p]) for p in simplices[row]
+        )
+    return inside
+
+
+def _in_cone(vector, directions) -> bool:
+    directions = directions / np.sqrt((directions**2).sum(axis=1, keepdims=True))
+    _, residual = nnls(directions.T, vector)
+    return residual <= _CONE * np.sqrt(vector @ vector)
+
+
+def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
+    """The Voronoi faces of `size` singular points, each with its skeleton vertices."""
+    columns = list(combinations(range(t.simplices.shape[1]), size))
+    groups = np.sort(t.simplices[:, columns], axis=2).reshape(-1, size)
+    owner = np.repeat(np.arange(len(t.simplices)), len(columns))
+    real = groups[:, -1] < t.count
+    generators, face = unique_rows(groups[real], t.count)
+    vertex = label[owner[real]]
+    through, ball = on.common(generators)
+    through, ball = through[exposed[ball]], ball[exposed[ball]]
+    rows = np.column_stack([np.append(face[vertex >= 0], through), np.append(vertex[vertex >= 0], ball)])
+    rows, _ = unique_rows(rows, max(len(generators), on.count, int(label.max()) + 1))
+    return _Faces(generators, rows[:, 0], rows[:, 1])
+
+
+def _chains(faces: _Faces, vertices) -> np.ndarray:
+    """Edges between consecutive vertices of faces that are parts of lines, (e, 2)."""
+    face, vertex = faces.face, faces.vertex
+    if not len(face):
+        return np.zeros((0, 2), dtype=np.int64)
+    offset, direction, _ = _about_middle(face, vertices[vertex])
+    along = np.einsum("mi,mi->m", offset, direction)
+    order = np.lexsort((along, face))
+    face, vertex = face[order], vertex[order]
+    joined = face[1:] == face[:-1]
+    return np.column_stack([vertex[:-1], vertex[1:]])[joined]
+
+
+def _about_middle(face, places) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places seen from the middle of their face, the farthest of the face for each row, sizes of faces."""
+    first = np.flatnonzero(np.diff(face, prepend=-1))
+    size = np.diff(first, append=len(face))
+    offset = places - np.repeat(np.add.reduceat(places, first) / size[:, None], size, axis=0)
+    farthest = np.lexsort(((offset**2).sum(axis=1), face))[np.cumsum(size) - 1]
+    return offset, np.repeat(offset[farthest], size, axis=0), size
+
+
+def _ring_places(t, label, faces: _Faces) -> np.ndarray:
+    """The place of each skeleton vertex in the ring around its face, -1 on faces that are cut."""
+    edges, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
+    vertex = label[owner]
+    outside = np.zeros(len(edges), dtype=bool)
+    outside[edge[vertex < 0]] = True
+    rows = np.lexsort((position, vertex, edge))
+    rows = rows[vertex[rows] >= 0]
+    bound = 1 + max(label.max(), faces.vertex.max(initial=0))
+    key, first = np.unique(edge[rows] * bound + vertex[rows], return_index=True)
+    key, first = np.append(key, -1), np.append(rows[first], 0)
+    wanted = faces.face * bound + faces.vertex
+    at = np.searchsorted(key[:-1], wanted)
+    place = np.where(key[at] == wanted, position[first[at]], -1)
+    # A centre of a ball that is no vertex of the ring is where the face was cut.
+    outside[faces.face[place < 0]] = True
+    return np.where(outside[faces.face], -1, place)
+
+
+def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.ndarray]:
+    """The convex polygons with three corners or more, in order, and the edges of those that are flat."""
+    face, vertex = faces.face, faces.vertex
+    if not len(face):
+        return Polygons(), np.zeros((0, 2), dtype=np.int64)
+    offset, x, size = _about_middle(face, vertices[vertex])
+    first = np.cumsum(size) - size
+    normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
+    y = np.cross(normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)), x)
+    along, across = np.einsum("mi,mi->m", offset, x), np.einsum("mi,mi->m", offset, y)
+    extent = np.maximum.reduceat(np.abs(along), first)
+    wide = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
+    solid = np.where(place >= 0, np.repeat(size >= 3, size), wide)
+    line = _Faces(faces.generators, face[~solid], vertex[~solid])
+    # Faces that are in as a whole keep the order of their ring, which no rounding can change. For the others:
+    # the middle of a convex polygon is inside it, so its corners are in order as seen from there.
+    turn = np.where(place >= 0, place, np.arctan2(across, along))
+    order = np.lexsort((turn[solid], face[solid]))
+    ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
+    return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)

@@ -1,0 +1,8 @@
+"""Shapes by their boundary, and samplings of it (section 2.1 of the paper).
+
+In the room: `Shape`, a closed region of the plane or of space with a checked boundary; what rings and
+meshes must be; samples at equal distances and how densely they cover a boundary.
+"""
+
+from .meshes import twin_sides
+from .shape import Shape, check_shape

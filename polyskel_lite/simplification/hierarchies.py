@@ -1,0 +1,208 @@
+"""Simplifying shape and skeleton without changing the topology, at every threshold at once (section 4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from numbers import Real
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..containment import DelaunayShape, delaunay_shape
+from ..errors import InputError
+from ..skeletons import Skeleton, branch_graph, dual_complex
+from . import collapse
+from .criteria import face_angles, facet_measures
+
+if TYPE_CHECKING:
+    import networkx
+
+_STRATEGIES = {"branch": (2,), "surface": (3,), "wireframe": (3,)}
+_CRITERIA = ("corrected", "as printed")
+
+
+@dataclass(frozen=True, eq=False)
+class Hierarchy:
+    """All simplified skeletons of a shape, nested: made by `hierarchy`.
+
+    Attributes
+    ----------
+    P : DelaunayShape
+    strategy : str
+        "branch", "surface" or "wireframe".
+    criterion : str
+        "corrected" or "as printed".
+    level : (k,) float array
+        For each inner simplex (in the order of ``np.flatnonzero(P.inner)``, which is that of the
+        vertices of ``sk0(P)``) the threshold at which it goes: -inf if it goes systematically before
+        any threshold, inf if it never goes.
+    kind : (k,) int8 array
+        How it goes: 1 as a hat, 2 as a salient, 0 never.
+    order : (r,) int array
+        Positions in ``level`` of the simplices that go, in the order in which they went.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> leaf = psl.hierarchy(psl.datasets.load("leaf"), strategy="branch")
+    >>> sizes = [len(leaf.skeleton(threshold).vertices) for threshold in (0, np.pi, 2 * np.pi)]
+    >>> sizes[0] == len(psl.sk0(leaf.P).vertices), sizes[0] > sizes[1] > sizes[2]
+    (True, True)
+    """
+
+    P: DelaunayShape
+    strategy: str
+    criterion: str
+    level: np.ndarray
+    kind: np.ndarray
+    order: np.ndarray
+
+    @cached_property
+    def simplices(self) -> np.ndarray:
+        """The inner simplices, (k,): rows of ``P.tessellation.simplices``."""
+        return np.flatnonzero(self.P.inner)
+
+    @cached_property
+    def rank(self) -> np.ndarray:
+        """The position of each inner simplex in `order`, (k,) int array; k for those that never go.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+        >>> sorted(h.rank.tolist())
+        [0, 1, 3]
+        """
+        rank = np.full(len(self.level), len(self.level))
+        rank[self.order] = np.arange(len(self.order))
+        return rank
+
+    def kept(self, threshold: float) -> np.ndarray:
+        """Which simplices of the tessellation stay at a threshold (level >= threshold), (t,) bool array.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+        >>> h.kept(float("-inf")).tolist() == h.P.inner.tolist()
+        True
+        """
+        if not isinstance(threshold, Real) or np.isnan(threshold):
+            raise InputError(
+                f"threshold is {threshold!r}, not a number; pass an angle in radians, such as pi / 3."
+            )
+        keep = np.zeros_like(self.P.inner)
+        keep[self.simplices] = self.level >= threshold
+        return keep
+
+    def shape(self, threshold: float) -> DelaunayShape:
+        """The simplified shape at a threshold (section 4.1).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.datasets.load("lake"))
+        >>> h.shape(np.pi).betti()
+        (1, 2)
+        """
+        return DelaunayShape(self.P.tessellation, self.kept(threshold))
+
+    def skeleton(self, threshold: float) -> Skeleton:
+        """The simplified skeleton at a threshold: the dual of the simplified shape (section 4.1).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> h = psl.hierarchy(psl.datasets.load("lake"))
+        >>> h.skeleton(np.pi).betti()
+        (1, 2)
+        """
+        return dual_complex(self.P.tessellation, self.kept(threshold))
+
+    def branches(self, threshold: float) -> networkx.MultiGraph:
+        """Branches of the simplified skeleton; see `polyskel_lite.skeletons.branch_graph`.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.hierarchy(psl.datasets.load("hawaii")).branches(2 * np.pi).number_of_nodes() > 0
+        True
+        """
+        return branch_graph(self.skeleton(threshold))
+
+
+def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> Hierarchy:
+    """Remove hats and salients, and note for each simplex the threshold at which it goes (sections 4.1-4.3).
+
+    Parameters
+    ----------
+    P : DelaunayShape or Shape
+    strategy : "branch" (2D), "surface" or "wireframe" (3D)
+        "branch": a hat triangle goes when p/r, boundary length over ball radius, is below the threshold.
+        "surface": hats go systematically, a salient tetrahedron goes when the angle between the outward
+        normals of its two boundary faces is below the threshold. "wireframe": salients go
+        systematically, a hat goes when p/r², boundary area over squared radius, is below the threshold.
+    criterion : "corrected" or "as printed"
+        The paper prints the dihedral angle, p/r and, in 2D, the whole perimeter of A(v); see section 4.3
+        of the book for what that does.
+
+    Returns
+    -------
+    Hierarchy
+
+    Raises
+    ------
+    InputError
+        If the strategy does not fit the dimension, or a name is unknown.
+    ContourContainmentError
+        If ``P`` is a shape whose boundary is not in Del(E).
+
+    Notes
+    -----
+    The smallest criterion goes first; the running maximum of the criteria popped so far is exactly the
+    threshold from which on a simplex is removed when the paper's process is run to its end. Ties, such as
+    those of the systematic removals, are broken by ball radius, so the names of the points do not matter.
+
+    References
+    ----------
+    Attali and Montanvert 1997, section 4; Ogniewicz, Discrete Voronoi Skeletons, 1993.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> h = psl.hierarchy(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (2, 1.2), (0, 1)]]))
+    >>> h.strategy, len(h.level), int(np.isinf(h.level).sum())
+    ('branch', 3, 1)
+    """
+    if not isinstance(P, DelaunayShape):
+        P = delaunay_shape(P)
+    if strategy is None:
+        strategy = "branch" if P.dimension == 2 else "surface"
+    if strategy not in _STRATEGIES:
+        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(_STRATEGIES)}.")
+    if criterion not in _CRITERIA:
+        raise InputError(f"unknown criterion {criterion!r}; choose one of {', '.join(_CRITERIA)}.")
+    if P.dimension not in _STRATEGIES[strategy]:
+        fitting = [name for name, dimensions in _STRATEGIES.items() if P.dimension in dimensions]
+        raise InputError(
+            f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."
+        )
+    t, printed, inner = P.tessellation, criterion == "as printed", np.flatnonzero(P.inner)
+    # The outer simplices take no part: only the inner ones are numbered, measured and removed.
+    number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
+    measure = alpha = None
+    if strategy == "surface":
+        alpha = face_angles(t, inner, dihedral=printed)
+    else:
+        measure = facet_measures(t, inner)
+    level, kind, order, _ = collapse.run(
+        strategy,
+        printed,
+        t.simplices[inner],
+        number[t.neighbors[inner]],
+        measure,
+        alpha,
+        t.circumradii[inner],
+    )
+    return Hierarchy(P, strategy, criterion, level, kind, order)

@@ -1,0 +1,13 @@
+"""The four skeletons Sk0 to Sk3 (section 3 of the paper), and what is read off any skeleton.
+
+In the room: `Skeleton`, an abstract cell complex with balls around its vertices; the Voronoi graph and the
+dual of any Delaunay simplices; what of it is inside a shape, exactly; branches as a graph and as a table;
+Hausdorff distances.
+"""
+
+from .branch_tables import Branch, branch_csv, branch_rows
+from .branches import branch_graph, free_edges
+from .distances import directed_hausdorff, hausdorff
+from .four_methods import sk0, sk1, sk2, sk3
+from .skeleton import Skeleton
+from .voronoi_graph import dual_complex, voronoi

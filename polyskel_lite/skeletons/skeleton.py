@@ -1,0 +1,259 @@
+"""Skeletons as abstract cell complexes, with the balls around their vertices."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from ..containment import DelaunayShape
+from ..errors import InputError
+from ..exact import Polygons, betti_numbers
+from ..files import write_complex
+from ..graphs import Tessellation
+
+if TYPE_CHECKING:
+    import networkx
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """Vertices, edges and (in 3D) polygons of a skeleton, with the balls around its vertices.
+
+    The complex is abstract: two vertices can stand at one place (cocircular samples) without being
+    one. That is what keeps the homotopy of the shape (sections 3 and 3.4 of the paper).
+
+    Attributes
+    ----------
+    vertices : (k, N) float array
+        Voronoi vertices (and, in Sk3, the points where the boundary cuts Voronoi edges).
+    radii : (k,) float array
+        Distance from each vertex to its nearest samples, a length: the Delaunay balls.
+    simplices : (k,) int array
+        The Delaunay simplex whose dual each vertex is; -1 for the cut points of Sk3, and everywhere in the
+        skeleton of a polyball.
+    edges : (e, 2) int array
+        Pairs of vertices.
+    polygons : sequence of int arrays
+        Vertices in order around their Delaunay edge; empty in 2D.
+    rays : (r, N) float array
+        Unit directions of unbounded edges.
+    ray_vertices : (r,) int array
+        The vertex at which each ray begins.
+    tessellation : Tessellation or None
+        Where ``simplices`` points to.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> rectangle = psl.Shape.from_rings([[(0, 0), (4, 0), (4, 1), (0, 1)]])
+    >>> skeleton = psl.sk0(psl.conform(rectangle))
+    >>> skeleton.betti()
+    (1, 0)
+    """
+
+    vertices: np.ndarray
+    radii: np.ndarray
+    simplices: np.ndarray
+    edges: np.ndarray
+    polygons: Sequence[np.ndarray] = ()
+    rays: np.ndarray | None = None
+    ray_vertices: np.ndarray | None = None
+    tessellation: Tessellation | None = None
+    #: `Polyball`, which puts itself here: its skeleton is a Skeleton, so the rooms cannot both import.
+    _polyball: ClassVar[Callable[..., Any]]
+
+    def __post_init__(self):
+        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
+        object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
+        object.__setattr__(self, "polygons", Polygons.of(self.polygons))
+        if self.rays is None:
+            object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
+            object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
+
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        return self.vertices.shape[1]
+
+    def segments(self) -> np.ndarray:
+        """End points of every edge, (e, 2, N).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).segments().shape
+        (1, 2, 2)
+        """
+        return self.vertices[self.edges]
+
+    def length(self) -> float:
+        """Total length of the edges (rays not counted).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2), (2, 2)]).length()
+        0.0
+        """
+        ends = self.segments()
+        return float(np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).sum())
+
+    def betti(self) -> tuple[int, ...]:
+        """Betti numbers (b0, b1) in 2D, (b0, b1, b2) in 3D, of the abstract complex.
+
+        A skeleton with rays is taken with the point at infinity, where its rays meet.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).betti()
+        (1, 2)
+        """
+        n, edges = len(self.vertices), self.edges
+        if len(self.rays):
+            edges = np.concatenate([edges, np.stack([self.ray_vertices, np.full(len(self.rays), n)], axis=1)])
+            n += 1
+            if self.dimension == 3:
+                raise InputError(
+                    "Betti numbers of unbounded 3D skeletons are not defined here; use the inner side."
+                )
+        return betti_numbers(n, edges, self.polygons if self.dimension == 3 else None)
+
+    def to_networkx(self) -> networkx.Graph:
+        """The vertices and edges as a networkx graph (needs the extra ``graph``).
+
+        Returns
+        -------
+        networkx.Graph
+            Nodes 0 to k-1 with ``pos`` (tuple), ``radius`` and ``simplex``; edges with ``length``.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> graph = psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).to_networkx()
+        >>> graph.number_of_nodes(), round(graph.edges[0, 1]["length"], 3)
+        (2, 0.559)
+        """
+        try:
+            import networkx
+        except ImportError:
+            raise InputError("networkx is not installed; run: pip install polyskel-lite[graph]") from None
+        graph = networkx.Graph()
+        rows = zip(self.vertices.tolist(), self.radii.tolist(), self.simplices.tolist(), strict=True)
+        graph.add_nodes_from(
+            (k, {"pos": tuple(p), "radius": r, "simplex": s}) for k, (p, r, s) in enumerate(rows)
+        )
+        ends = self.segments()
+        length = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).tolist()
+        graph.add_edges_from(
+            (a, b, {"length": s}) for (a, b), s in zip(self.edges.tolist(), length, strict=True)
+        )
+        return graph
+
+    def balls(self) -> Any:
+        """The union of the balls around the vertices: Y_w of section 3.2 when the skeleton is Sk1 or Sk2.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).balls().radii.round(3).tolist()
+        [1.414]
+        """
+        # Vertices that are dual to no simplex are cuts of Sk3; the skeleton of a polyball has no others.
+        keep = (self.simplices >= 0) | (self.tessellation is None)
+        return self._polyball(self.vertices[keep], self.radii[keep])
+
+    def reconstruct(self) -> DelaunayShape:
+        """The union of the simplices dual to the vertices: for Sk0 the shape itself (reversibility, 3.4).
+
+        Raises
+        ------
+        InputError
+            If the skeleton was loaded or made without its tessellation.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> triangle = psl.Shape.from_rings([[(0, 0), (4, 0), (0, 3)]])
+        >>> psl.sk0(triangle).reconstruct().boundary().tolist()
+        [[0, 1], [1, 2], [2, 0]]
+        """
+        if self.tessellation is None:
+            raise InputError(
+                "this skeleton has no tessellation; compute it from a shape, or load one saved with it."
+            )
+        inner = np.zeros(len(self.tessellation.simplices), dtype=bool)
+        inner[self.simplices[self.simplices >= 0]] = True
+        return DelaunayShape(self.tessellation, inner)
+
+    def save(self, path: str | PathLike) -> None:
+        """Write the skeleton, with its tessellation, to a NumPy ``.npz`` file.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "skeleton.npz"
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).save(path)
+        >>> Skeleton.load(path).vertices.tolist()
+        [[1.0, 1.0]]
+        """
+        data = {name: getattr(self, name) for name in _ARRAYS}
+        data |= {"polygon_sizes": self.polygons.sizes, "polygon_corners": self.polygons.corners}
+        if self.tessellation is not None:
+            data |= {f"tessellation_{name}": getattr(self.tessellation, name) for name in _TESSELLATION}
+        with open(path, "wb") as file:
+            np.savez_compressed(file, **data)
+
+    def to_file(self, path: str | PathLike) -> None:
+        """Write edges and polygons for other programs, as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu).
+
+        Needs the extra ``meshes``. PLY and VTK keep the radii, and `save` keeps everything. See
+        `polyskel_lite.files.write_complex`.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).to_file("corner.stl")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: corner.stl: a skeleton cannot be written as '.stl'; ...
+        """
+        data = {"radius": self.radii, "simplex": self.simplices.astype(np.int32)}
+        write_complex(path, self.vertices, self.edges, self.polygons, data)
+
+    @classmethod
+    def load(cls, path: str | PathLike) -> Skeleton:
+        """Read a skeleton written by `save`.
+
+        Raises
+        ------
+        InputError
+            If the file is not such a file.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> with tempfile.NamedTemporaryFile() as file:
+        ...     Skeleton.load(file.name)  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        polyskel_lite.errors.InputError: ...
+        """
+        try:
+            with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
+                data = dict(file)
+            arrays = {name: data[name] for name in _ARRAYS}
+            polygons = Polygons(data["polygon_corners"], data["polygon_sizes"])
+        except (KeyError, EOFError, zipfile.BadZipFile, ValueError, AttributeError) as error:
+            raise InputError(f"{path} is not a skeleton written by Skeleton.save ({error}).") from None
+        tessellation = None
+        if "tessellation_points" in data:
+            tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
+        return cls(**arrays, polygons=polygons, tessellation=tessellation)
+
+
+_ARRAYS = ("vertices", "radii", "simplices", "edges", "rays", "ray_vertices")
+_TESSELLATION = ("points", "simplices", "neighbors")
