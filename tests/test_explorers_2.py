@@ -8,7 +8,6 @@ import random
 import re
 from base64 import b64decode
 from datetime import UTC, datetime
-from importlib import import_module
 from itertools import pairwise
 from xml.etree import ElementTree
 
@@ -18,14 +17,10 @@ from PIL import Image
 
 import polyskel_lite as psl
 from polyskel_lite import explore, implicit
-from polyskel_lite.containment.conforming import conform_stages
-from polyskel_lite.explore.explorers import results
-
-
-def module(name):
-    """A module of explorers: its name in the package is that of the function in it."""
-    return import_module(f"polyskel_lite.explore.{name}")
-
+from polyskel_lite.containment import conform_stages, diametral_balls
+from polyskel_lite.explore.explorers import bring_your_own, moving_balls, removing, results
+from polyskel_lite.simplification import end_vertices, paths_back, state_at
+from polyskel_lite.skeletons import branch_rows
 
 # --- every explorer ---------------------------------------------------------------------------------
 
@@ -81,7 +76,7 @@ def test_refinement_counts_what_is_missing(name, to):
 
 def test_intruders_are_what_keeps_a_side_out_of_the_gabriel_graph():
     for stage in conform_stages(psl.datasets.load("lake", n=60)):
-        centers, radii, intruders = module("refinement").diametral_balls(stage)
+        centers, radii, intruders = diametral_balls(stage)
         ends = stage.points[stage.facets]
         middle, reach = ends.mean(axis=1), np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) / 2
         found = set()
@@ -148,8 +143,8 @@ def test_removals_want_a_flat_shape_and_a_step_there_is():
         explore.removals(psl.datasets.load("fourbranch"))
     h = psl.hierarchy(psl.datasets.load("gear", n=60))
     with pytest.raises(psl.InputError, match="step is 99"):
-        module("removals").state_at(h, 99)
-    assert module("removals").try_removal(h, 0, triangle=10**6) is None
+        state_at(h, 99)
+    assert removing.try_removal(h, 0, triangle=10**6) is None
 
 
 def test_waiting_triangles_are_told_with_their_threshold():
@@ -188,9 +183,9 @@ def test_ends_come_back_along_the_whole_skeleton():
     h = psl.hierarchy(psl.datasets.load("leaf"))
     whole = psl.sk0(h.P)
     edges = {frozenset(map(tuple, segment)) for segment in whole.segments().tolist()}
-    first = set(map(tuple, whole.vertices[module("thresholds").end_vertices(h, 0)].tolist()))
+    first = set(map(tuple, whole.vertices[end_vertices(h, 0)].tolist()))
     for threshold in (0, np.pi, 2 * np.pi):
-        paths = module("thresholds").paths_back(h, threshold)
+        paths = paths_back(h, threshold)
         for path in paths:
             steps = pairwise(map(tuple, path.tolist()))
             assert all(frozenset(step) in edges or step[0] == step[1] for step in steps)
@@ -308,7 +303,7 @@ def test_balls_are_added_and_removed():
     assert explorer.board.text == "One ball has to stay."
     for _ in range(20):
         explorer.add()
-    assert len(explorer.polyball) == module("balls").MOST
+    assert len(explorer.polyball) == moving_balls.MOST
     assert "remove one first" in explorer.board.text
 
 
@@ -487,10 +482,10 @@ def test_names_of_files_are_text_and_stay_in_their_folder(good):
 
 def test_large_files_and_large_shapes_are_refused(monkeypatch):
     own = explore.explore()
-    uploaded(own, "large.png", bytes(module("bring_your_own").MOST_BYTES + 1))
+    uploaded(own, "large.png", bytes(bring_your_own.MOST_BYTES + 1))
     assert "megabytes" in own._status.value
     assert own.chain is None
-    monkeypatch.setitem(module("bring_your_own").MOST_VERTICES, 2, 100)
+    monkeypatch.setitem(bring_your_own.MOST_VERTICES, 2, 100)
     own.load(psl.datasets.load("gear"))
     assert str(own.error).startswith("shape has 500 vertices; up to 100 are quick enough")
     own.load(42)
@@ -569,14 +564,14 @@ def test_files_are_written_beside_the_notebook_or_it_says_why_not(tmp_path, monk
     own.write.click()
     assert "Written" in own._links.value
     assert (tmp_path / "shape-branches.csv").exists()
-    own.chain = module("bring_your_own").Chain("no/such/folder", *list(vars(own.chain).values())[1:])
+    own.chain = bring_your_own.Chain("no/such/folder", *list(vars(own.chain).values())[1:])
     own.write.click()
     assert "Not written" in own._links.value
 
 
 def test_branch_of_a_strip_has_its_width():
     strip = psl.Shape.from_rings([[(0, 0), (20, 0), (20, 2), (0, 2)]]).resample(220)
-    (row,) = results.branch_rows(psl.hierarchy(strip), np.pi)
+    (row,) = branch_rows(psl.hierarchy(strip).skeleton(np.pi))
     assert row.length == pytest.approx(18, abs=0.2)
     assert 2 * row.mean_radius == pytest.approx(2, rel=0.02)
     assert results.branch_table([]).startswith("<p>No branches")

@@ -5,8 +5,8 @@ import pytest
 
 import polyskel_lite as psl
 from polyskel_lite import figures
-from polyskel_lite.figures import removals, simplification, solids
-from polyskel_lite.simplification.criteria import facet_measures
+from polyskel_lite.figures import removals, solids
+from polyskel_lite.simplification import behind, facet_measures, simplices_by_type, ways
 
 
 def without(P, row):
@@ -19,7 +19,7 @@ def test_figure_6_upper_row_can_go_and_lower_row_cannot():
     shared, kept = [], []
     for P, row in removals.examples_6():
         assert P.inner[row]
-        shared.append(int(removals.simplices_by_type(P)[row]))
+        shared.append(int(simplices_by_type(P)[row]))
         kept.append(psl.sk0(without(P, row)).betti() == psl.sk0(P).betti())
     assert shared == [1, 1, 2, 2, 2, 3]
     assert kept == [True, True, True, False, False, False]
@@ -63,7 +63,7 @@ def test_figure_9_shows_all_that_must_go_first():
     h = psl.hierarchy(psl.datasets.load("horse", n=160))
     skeleton, t = psl.sk0(h.P), h.P.tessellation
     vertex = int(np.argmin(np.linalg.norm(skeleton.vertices - (0.19, 0.19), axis=1)))
-    members = simplification.behind(h, vertex)
+    members = behind(h, vertex)
     assert members[-1] == vertex
     assert 10 < len(members) < 50
     rows = h.simplices[members]
@@ -84,11 +84,11 @@ def test_parents_are_where_boundary_is_handed_to():
     t = h.P.tessellation
     outside = ~np.append(h.P.inner, False)[t.neighbors[h.simplices]]
     own = np.where(outside, facet_measures(t)[h.simplices], 0).sum(axis=1)
-    passed, towards = own.copy(), simplification.parents(h)
+    passed, towards = own.copy(), ways(h).heir
     for k in h.order:
         passed[towards[k]] += passed[k]
     for k in h.order[::7]:
-        assert own[simplification.behind(h, k)].sum() == pytest.approx(passed[k])
+        assert own[behind(h, k)].sum() == pytest.approx(passed[k])
     assert (towards >= 0).sum() == len(h.order)
 
 

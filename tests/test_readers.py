@@ -12,7 +12,6 @@ from PIL import Image
 from scipy.ndimage import label
 
 from polyskel_lite import InputError, PolyskelError, Shape, ShapeError, datasets
-from polyskel_lite.files.readers import from_file, from_mask
 from polyskel_lite.files.svg import svg_rings
 
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]
@@ -25,33 +24,33 @@ SVG = '<svg xmlns="http://www.w3.org/2000/svg">{}</svg>'
 def read_text(folder, name, text):
     path = folder / name
     path.write_text(text if isinstance(text, str) else json.dumps(text), encoding="utf-8")
-    return from_file(path)
+    return Shape.from_file(path)
 
 
 def read_svg(folder, body, **options):
     path = folder / "drawing.svg"
     path.write_text(SVG.format(body), encoding="utf-8")
-    return from_file(path, **options)
+    return Shape.from_file(path, **options)
 
 
 def read_picture(folder, pixels, **options):
     path = folder / "picture.png"
     Image.fromarray(np.asarray(pixels)).save(path)
-    return from_file(path, **options)
+    return Shape.from_file(path, **options)
 
 
 # --- from_mask
 
 
 def test_mask_is_placed_in_pixels_and_up_is_up():
-    shape = from_mask([[0, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]])
+    shape = Shape.from_mask([[0, 1, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]])
     assert shape.contains([(1.5, 3.5), (2.5, 3.5), (0.5, 3.5), (1.5, 0.5)]).tolist() == [1, 1, 0, 0]
     assert shape.points.max(axis=0).tolist() == [3, 4]
     assert shape.points.min(axis=0).tolist() == [1, 3]
 
 
 def test_full_mask_is_closed_at_the_border():
-    shape = from_mask(np.ones((3, 5), dtype=bool))
+    shape = Shape.from_mask(np.ones((3, 5), dtype=bool))
     assert shape.betti() == (1, 0)
     assert np.ptp(shape.points, axis=0).tolist() == [5, 3]
     assert shape.area() == 15 - 4 / 8  # the corners are cut at half a pixel
@@ -59,23 +58,23 @@ def test_full_mask_is_closed_at_the_border():
 
 def test_grey_values_place_the_outline_between_pixels():
     ramp = np.tile(np.linspace(1, 0, 11), (40, 1))  # 1 - 0.1 column; falls to 0.25 at column 7.5, x = 8
-    assert from_mask(ramp, level=0.25).points[:, 0].max() == pytest.approx(8)
+    assert Shape.from_mask(ramp, level=0.25).points[:, 0].max() == pytest.approx(8)
 
 
 def test_level_of_values_outside_zero_to_one():
-    shape = from_mask(np.pad(np.full((4, 4), 1000.0), 2, constant_values=-1000), level=0)
+    shape = Shape.from_mask(np.pad(np.full((4, 4), 1000.0), 2, constant_values=-1000), level=0)
     assert shape.area() == 16 - 4 / 8
     assert shape.points.min() == 2
 
 
 def test_negative_values_and_a_flat_image_at_the_level():
-    assert from_mask(np.full((2, 2), -3.0), level=-3.0).betti() == (1, 0)
+    assert Shape.from_mask(np.full((2, 2), -3.0), level=-3.0).betti() == (1, 0)
 
 
 def test_ring_has_a_hole():
     row, column = np.indices((40, 40)) - 19.5
     far = np.hypot(row, column)
-    shape = from_mask((far < 15) & (far > 8))
+    shape = Shape.from_mask((far < 15) & (far > 8))
     assert shape.betti() == (1, 1)
     assert shape.area() == pytest.approx(np.pi * (15**2 - 8**2), rel=0.01)
 
@@ -83,21 +82,21 @@ def test_ring_has_a_hole():
 def test_smoothing_rounds_the_staircase():
     row, column = np.indices((60, 60)) - 29.5
     disc = np.hypot(row, column) < 20
-    rough, smooth = from_mask(disc), from_mask(disc, smooth=2)
+    rough, smooth = Shape.from_mask(disc), Shape.from_mask(disc, smooth=2)
     off = [np.abs(np.hypot(*(shape.points - 30).T) - 20).max() for shape in (rough, smooth)]
     assert off[1] < 0.5 * off[0]
     assert smooth.area() == pytest.approx(rough.area(), rel=0.02)
 
 
 def test_smoothing_at_the_border_stays_closed():
-    shape = from_mask(np.ones((20, 30)), smooth=1.5)
+    shape = Shape.from_mask(np.ones((20, 30)), smooth=1.5)
     assert shape.betti() == (1, 0)
     assert shape.area() == pytest.approx(600, rel=0.02)
 
 
 def test_crosswise_pixels_are_apart_in_yes_no_pictures():
     board = np.indices((8, 8)).sum(axis=0) % 2
-    assert from_mask(board).betti() == (32, 0)
+    assert Shape.from_mask(board).betti() == (32, 0)
 
 
 @pytest.mark.parametrize(("low", "components"), [(0.2, 1), (0.0, 2)])
@@ -105,7 +104,7 @@ def test_crosswise_pixels_follow_the_mean(low, components):
     """Two pixels at 0.9 on a ground of `low`: the mean of the four is 0.55 or 0.45."""
     image = np.full((4, 4), low)
     image[1, 1] = image[2, 2] = 0.9
-    assert from_mask(image).betti() == (components, 0)
+    assert Shape.from_mask(image).betti() == (components, 0)
 
 
 @settings(max_examples=60, derandomize=True, deadline=None)
@@ -114,9 +113,9 @@ def test_any_yes_no_mask_has_its_topology(mask):
     """Components joined by edges of pixels, holes by edges and corners; every pixel on its side."""
     if not mask.any():
         with pytest.raises(InputError, match="no pixel"):
-            from_mask(mask)
+            Shape.from_mask(mask)
         return
-    shape = from_mask(mask)
+    shape = Shape.from_mask(mask)
     components = label(mask)[1]
     ground = label(~np.pad(mask, 1), structure=np.ones((3, 3)))[1]
     assert shape.betti() == (components, ground - 1)
@@ -134,7 +133,7 @@ def test_any_yes_no_mask_has_its_topology(mask):
 def test_values_at_the_level_never_make_outlines_touch(image, level):
     if image.max() < level:
         return
-    shape = from_mask(image, level=level)  # Shape refuses rings that touch
+    shape = Shape.from_mask(image, level=level)  # Shape refuses rings that touch
     rows, columns = image.shape
     x, y = np.meshgrid(np.arange(columns) + 0.5, rows - np.arange(rows) - 0.5)
     inside = shape.contains(np.stack([x.ravel(), y.ravel()], axis=1))
@@ -156,7 +155,7 @@ def test_values_at_the_level_never_make_outlines_touch(image, level):
 )
 def test_bad_masks(image, options, message):
     with pytest.raises(InputError, match=message):
-        from_mask(image, **options)
+        Shape.from_mask(image, **options)
 
 
 def test_shape_has_the_readers(tmp_path):
@@ -242,13 +241,13 @@ def test_bad_geojson(tmp_path, content, message):
 
 def test_geojson_with_a_byte_order_mark(tmp_path):
     (tmp_path / "a.geojson").write_text(json.dumps(FRAME), encoding="utf-8-sig")
-    assert from_file(tmp_path / "a.geojson").area() == 15
+    assert Shape.from_file(tmp_path / "a.geojson").area() == 15
 
 
 def test_bytes_that_are_no_text(tmp_path):
     (tmp_path / "a.geojson").write_bytes(b"\xff\xfe\xfa")
     with pytest.raises(InputError, match="not JSON"):
-        from_file(tmp_path / "a.geojson")
+        Shape.from_file(tmp_path / "a.geojson")
 
 
 def test_crossing_outline_keeps_its_error_class_and_names_the_file(tmp_path):
@@ -339,7 +338,7 @@ def test_svg_vertices_that_repeat_are_dropped(tmp_path):
 
 def test_svg_without_namespace(tmp_path):
     (tmp_path / "a.svg").write_text('<svg><rect width="2" height="2"/></svg>')
-    assert from_file(tmp_path / "a.svg").area() == 4
+    assert Shape.from_file(tmp_path / "a.svg").area() == 4
 
 
 @pytest.mark.parametrize(
@@ -416,7 +415,7 @@ def test_opaque_part_of_a_transparent_picture(tmp_path):
 def test_palette_with_transparency(tmp_path):
     picture = Image.fromarray((INK > 0).astype(np.uint8)).convert("P")
     picture.save(tmp_path / "a.gif", transparency=int(picture.getpixel((0, 0))))
-    assert from_file(tmp_path / "a.gif").area() == pytest.approx(BAR)
+    assert Shape.from_file(tmp_path / "a.gif").area() == pytest.approx(BAR)
 
 
 def test_invert_takes_the_other_part(tmp_path):
@@ -454,7 +453,7 @@ def test_broken_pictures(tmp_path):
     for content in (b"no picture at all", whole[: len(whole) // 2]):
         (tmp_path / "b.png").write_bytes(content)
         with pytest.raises(InputError, match=r"^b\.png: the picture cannot be opened"):
-            from_file(tmp_path / "b.png")
+            Shape.from_file(tmp_path / "b.png")
 
 
 # --- arrays, and what all files share
@@ -463,45 +462,45 @@ def test_broken_pictures(tmp_path):
 def test_npz_of_both_kinds(tmp_path):
     shape = datasets.load("lake")
     np.savez(tmp_path / "a.npz", points=shape.points, facets=shape.facets)
-    again = from_file(tmp_path / "a.npz")
+    again = Shape.from_file(tmp_path / "a.npz")
     assert (again.points == shape.points).all()
     assert (again.facets == shape.facets).all()
     off = np.cumsum([0, *map(len, shape.rings())])
     np.savez(tmp_path / "b.npz", xy=shape.points, off=off)
-    assert from_file(tmp_path / "b.npz").betti() == (1, 2)
+    assert Shape.from_file(tmp_path / "b.npz").betti() == (1, 2)
 
 
 def test_bad_npz(tmp_path):
     np.savez(tmp_path / "a.npz", V=np.zeros((3, 3)))
     with pytest.raises(InputError, match=r"a\.npz: its arrays are V; it needs points and facets"):
-        from_file(tmp_path / "a.npz")
+        Shape.from_file(tmp_path / "a.npz")
     np.savez(tmp_path / "b.npz", xy=np.zeros((3, 2)), off="words")
     with pytest.raises(InputError, match="not a file of arrays"):
-        from_file(tmp_path / "b.npz")
+        Shape.from_file(tmp_path / "b.npz")
     (tmp_path / "c.npz").write_text("words")
     with pytest.raises(InputError, match="not a file of arrays"):
-        from_file(tmp_path / "c.npz")
+        Shape.from_file(tmp_path / "c.npz")
     with (tmp_path / "d.npz").open("wb") as stream:
         np.save(stream, np.zeros(3))
     with pytest.raises(InputError, match="not a file of arrays"):
-        from_file(tmp_path / "d.npz")
+        Shape.from_file(tmp_path / "d.npz")
 
 
 @pytest.mark.parametrize("suffix", [".geojson", ".svg", ".png", ".npz"])
 def test_missing_empty_and_folder(tmp_path, suffix):
     path = tmp_path / f"a{suffix}"
     with pytest.raises(InputError, match="no such file"):
-        from_file(path)
+        Shape.from_file(path)
     path.touch()
     with pytest.raises(InputError, match="the file is empty"):
-        from_file(str(path))
+        Shape.from_file(str(path))
     path.unlink()
     path.mkdir()
     with pytest.raises(PolyskelError, match="no such file"):
-        from_file(path)
+        Shape.from_file(path)
 
 
 @pytest.mark.parametrize("name", ["outline.xyz", "outline"])
 def test_unknown_suffix(tmp_path, name):
     with pytest.raises(InputError, match=r"no reader for .*; it reads \.geojson, \.json, \.svg"):
-        from_file(tmp_path / name)
+        Shape.from_file(tmp_path / name)

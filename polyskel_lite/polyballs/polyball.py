@@ -1,9 +1,8 @@
 """Unions of balls (the paper's appendix A): boundary, singular points, generating balls, exact skeleton.
 
 The paper reads Sk2 as the skeleton of a *polyball* Y_w, the union of the Delaunay balls whose centres
-lie in the shape (section 3.2). Arcs are computed in `polyskel_lite.polyballs.discs` and `polyskel_lite.polyballs.spheres`,
-pairs and triples come from the power diagram (`polyskel_lite.polyballs.power`), and the skeleton is put together
-in `polyskel_lite.polyballs.skeleton`.
+lie in the shape (section 3.2). Arcs are computed in `discs` and `spheres`, pairs and triples come from the
+power diagram (`power`), and the skeleton is put together in `skeleton`.
 """
 
 from __future__ import annotations
