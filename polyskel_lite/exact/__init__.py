@@ -11,14 +11,13 @@ from .polygons import Polygons, dual_polygons, edge_rings
 from .predicates import as_integers, in_ball, in_gabriel_ball, orientation
 from .rational import (
     between,
-    clip_exactly,
+    circumcenter_terms,
     clip_rational,
     dot,
     exact,
-    exact_circumcenter,
-    locate_exactly,
     locate_rational,
     minus,
+    normal_of,
     rational_circumcenter,
 )
 from .segments import distance_to_segments, first_meeting, locate, point_segment_distance

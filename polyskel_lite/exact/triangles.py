@@ -13,10 +13,9 @@ from scipy.spatial import cKDTree
 
 from .boxes import overlapping_pairs, self_overlaps
 from .predicates import orientation
+from .rational import PLANES
 from .segments import point_segment_distance, segments_meet
 
-# The three coordinate planes: whatever is not flat in space has a shadow in one that is not flat.
-_PLANES = ((0, 1), (1, 2), (2, 0))
 _CHUNK = 500_000  # pairs of points and triangles looked at together: bounds the memory, not the result
 
 
@@ -39,7 +38,7 @@ def shadow_signs(triangles: np.ndarray) -> np.ndarray:
            [ 0,  0,  0]], dtype=int8)
     """
     triangles = np.asarray(triangles, dtype=np.float64)
-    return np.stack([orientation(triangles[:, :, plane]) for plane in _PLANES], axis=1)
+    return np.stack([orientation(triangles[:, :, plane]) for plane in PLANES], axis=1)
 
 
 def in_triangle(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
@@ -59,7 +58,7 @@ def in_triangle(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
     """
     result = _side(triangles, queries) == 0
     rows = np.flatnonzero(result)
-    for plane in _PLANES:
+    for plane in PLANES:
         # Seen from the query, the sides of the shadow all turn the same way (or not at all).
         t, q = triangles[rows][:, :, plane], queries[rows][:, plane]
         turns = _shadow_turns(t, q)
@@ -112,7 +111,7 @@ def segment_meets_triangle(segments: np.ndarray, triangles: np.ndarray) -> np.nd
 
 def _meets_in_plane(segments, triangles):
     """The same where the segment lies in the plane of the triangle: on a shadow that has an area."""
-    columns = np.array(_PLANES)[(shadow_signs(triangles) != 0).argmax(axis=1)][:, None, :]
+    columns = np.array(PLANES)[(shadow_signs(triangles) != 0).argmax(axis=1)][:, None, :]
     s, t = np.take_along_axis(segments, columns, axis=2), np.take_along_axis(triangles, columns, axis=2)
     turns = _shadow_turns(t, s[:, 0])
     result = (turns.min(axis=0) >= 0) | (turns.max(axis=0) <= 0)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..exact import as_integers
+from ..exact import as_integers, circumcenter_terms
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +152,7 @@ def _circumballs(simplices):
     """Centers, radii, and a bound on the error of each center."""
     base, d = simplices[:, 0], simplices[:, 1:] - simplices[:, :1]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
-        twice, numerator = _circumcenter_terms(d)
+        twice, numerator = circumcenter_terms(d)
         sides = np.sqrt((d**2).sum(axis=2))
         size = sides.prod(axis=1)
         offset = np.where(twice[:, None] != 0, numerator / twice[:, None], np.inf)
@@ -169,28 +169,10 @@ def _circumballs(simplices):
         return centers, radii, error
 
 
-def _circumcenter_terms(d):
-    """Twice the determinant of the sides d (t, N, N), and that times the way to the circumcenter."""
-    lift = (d * d).sum(axis=2)
-    if d.shape[2] == 2:
-        (ax, ay), (bx, by) = d[:, 0].T, d[:, 1].T
-        numerator = [by * lift[:, 0] - ay * lift[:, 1], ax * lift[:, 1] - bx * lift[:, 0]]
-        return 2 * (ax * by - ay * bx), np.stack(numerator, axis=1)
-    a, b, c = d[:, 0], d[:, 1], d[:, 2]
-    bc, ca, ab = _cross(b, c), _cross(c, a), _cross(a, b)
-    return 2 * (a * bc).sum(axis=1), lift[:, :1] * bc + lift[:, 1:2] * ca + lift[:, 2:] * ab
-
-
-def _cross(u, v):
-    # numpy.cross does not take Python's unbounded integers.
-    (ux, uy, uz), (vx, vy, vz) = u.T, v.T
-    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
-
-
 def _exact_offset(simplex):
     # The second array tells what a length of one is in the common unit of the integers.
     corners, unit = as_integers(simplex, np.ones(1))
-    twice, numerator = _circumcenter_terms((corners[1:] - corners[:1])[None])
+    twice, numerator = circumcenter_terms((corners[1:] - corners[:1])[None])
     try:
         return [float(Fraction(x, twice[0] * unit[0])) for x in numerator[0]]
     except (ZeroDivisionError, OverflowError):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..shapes import Shape, check_shape
-from .inside_plane import VoronoiInShape
-from .inside_space import VoronoiInSolid
+from .inside import VoronoiInside
 from .skeleton import Skeleton
 from .voronoi_graph import dual_complex
 
@@ -154,10 +153,9 @@ def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     return _voronoi(shape, E, side).intersection()
 
 
-def _voronoi(shape: Shape, E, side: str) -> VoronoiInShape | VoronoiInSolid:
+def _voronoi(shape: Shape, E, side: str) -> VoronoiInside:
     check_shape(shape)
-    kind = VoronoiInShape if shape.dimension == 2 else VoronoiInSolid
-    return kind(shape, E, _side(side))
+    return VoronoiInside(shape, E, _side(side))
 
 
 def _side(side: str) -> int:
