@@ -72,7 +72,7 @@ nb_mime_priority_overrides = [
     ("html", "text/html", 0),
 ]
 nb_ipywidgets_js = {}
-VIEWER = (ROOT / "polyskel_lite" / "explore" / "viewer.js").read_text(encoding="utf-8")
+VIEWER = (ROOT / "polyskel_lite" / "explore" / "skeleton_viewer" / "viewer.js").read_text(encoding="utf-8")
 
 
 def add_viewer(app, pagename, templatename, context, doctree):

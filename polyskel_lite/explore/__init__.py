@@ -16,24 +16,6 @@ import sys
 from importlib import import_module
 from types import ModuleType
 
-# Where each name lives; a module is imported when its first name is asked for.
-_HOMES = {
-    "Board": "board",
-    "Explorer": "explorer",
-    "SkeletonViewer": "viewer",
-    "balls": "balls",
-    "explore": "bring_your_own",
-    "four_methods": "four_methods",
-    "graphs": "graphs",
-    "maximal_ball": "maximal_ball",
-    "refinement": "refinement",
-    "removals": "removals",
-    "sampling": "sampling",
-    "thresholds": "thresholds",
-    "viewer": "viewer",
-}
-_NEEDED = ("anywidget", "ipywidgets", "traitlets")
-
 __all__ = [
     "Board",
     "Explorer",
@@ -49,31 +31,42 @@ __all__ = [
     "thresholds",
     "viewer",
 ]
+# Where each name lives; a module is imported when its first name is asked for.
+_HOMES = {name: name for name in __all__} | {
+    "Board": "board",
+    "Explorer": "explorer",
+    "SkeletonViewer": "skeleton_viewer",
+    "explore": "bring_your_own",
+    "viewer": "skeleton_viewer",
+}
+_NEEDED = ("anywidget", "ipywidgets", "traitlets")
+
+
+def __getattr__(name):
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    except ModuleNotFoundError as error:
+        if error.name not in _NEEDED:
+            raise
+        raise ImportError(
+            f"polyskel_lite.explore needs {error.name}, which is not installed; "
+            "run: pip install polyskel-lite[lab]"
+        ) from None
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})
 
 
 class _Package(ModuleType):
-    """Modules here are named after their function; the name in the package means the function."""
+    """Modules of explorers are named after their function; the name in the package means the function."""
 
     def __setattr__(self, name, value):
         if isinstance(value, ModuleType) and name in _HOMES:
             value = getattr(value, name, value)
         super().__setattr__(name, value)
-
-    def __getattr__(self, name):
-        if name not in _HOMES:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        try:
-            return getattr(import_module(f".{_HOMES[name]}", __name__), name)
-        except ModuleNotFoundError as error:
-            if error.name not in _NEEDED:
-                raise
-            raise ImportError(
-                f"polyskel_lite.explore needs {error.name}, which is not installed; "
-                "run: pip install polyskel-lite[lab]"
-            ) from None
-
-    def __dir__(self):
-        return sorted({*super().__dir__(), *_HOMES})
 
 
 sys.modules[__name__].__class__ = _Package

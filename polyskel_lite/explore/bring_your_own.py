@@ -19,7 +19,7 @@ from ..shapes import Shape
 from ..simplification import Hierarchy, hierarchy
 from ._results import branch_rows, branch_table, result_files
 from .explorer import NEEDS_KERNEL
-from .viewer import SkeletonViewer, viewer
+from .skeleton_viewer import SkeletonViewer, viewer
 
 #: What the file button offers; a path may have any suffix that `Shape.from_file` reads.
 SUFFIXES = (".png", ".jpg", ".jpeg", ".svg", ".geojson", ".json", ".stl", ".ply", ".obj", ".off", ".npz")

@@ -16,7 +16,7 @@ from ..simplification import Hierarchy, hierarchy
 from ..skeletons import sk0
 from .board import Board, box_around
 from .explorer import Explorer
-from .viewer import viewer
+from .skeleton_viewer import viewer
 
 LOOK_FOR = (
     "Move the threshold from left to right. Look for the order in which branches go, small ripples of the "
