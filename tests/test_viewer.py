@@ -262,7 +262,7 @@ def test_saved_page_needs_nothing_else(leaf, tmp_path):
 
 
 def test_module_can_stand_in_a_page():
-    module = (ROOT / "polyskel_lite/explore/skeleton_viewer/viewer.js").read_text(encoding="utf-8")
+    module = explore.SkeletonViewer._esm
     assert "</script" not in module
     assert not re.search(r"https?://|\bimport\b[^.]*\bfrom\b", module)
 

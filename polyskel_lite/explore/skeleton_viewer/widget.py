@@ -16,10 +16,11 @@ import traitlets
 
 from ...errors import InputError
 from . import pack
+from .bundle import one_module
 from .scene import State, as_states, description, pack_scene
 from .strip import still_pictures
 
-_MODULE = Path(__file__).with_name("viewer.js").read_text(encoding="utf-8")
+_MODULE = one_module()
 _COLORS = ("radius", "level", "none")
 _STATE = ("threshold", "strategy", "variant", "opacity", "simplified", "color")
 _SHOWN = ("samples", "vertices", "edges", "polygons")
@@ -195,8 +196,8 @@ class SkeletonViewer(anywidget.AnyWidget):
     def to_html(self) -> str:
         """The picture as a piece of a page: its data and, where no script runs, three still pictures.
 
-        A page needs the module ``viewer.js`` once besides; `save` writes a whole page, and the book adds
-        the module to its pages by itself.
+        A page needs the viewer's JavaScript (`one_module`) once besides; `save` writes a whole page, and the
+        book adds it to its pages by itself.
 
         Examples
         --------
