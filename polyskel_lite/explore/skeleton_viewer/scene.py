@@ -74,8 +74,7 @@ def as_states(source, strategies: Sequence[str] | None, shape) -> list[State]:
 
 def _state(label: str, source, strategies, shape) -> State:
     if isinstance(source, Skeleton):
-        P = None if shape is None else _delaunay(shape)
-        return State(label, P, source, (), ())
+        return State(label, None if shape is None else _delaunay(shape), source, (), ())
     if isinstance(source, Polyball):
         return State(label, source, source.skeleton(), (), ())
     if isinstance(source, (Shape, DelaunayShape)):
@@ -106,15 +105,13 @@ def _delaunay(shape) -> DelaunayShape | Polyball:
 
 
 def _same(P: DelaunayShape, Q: DelaunayShape) -> bool:
-    return np.array_equal(P.inner, Q.inner) and np.array_equal(
-        P.tessellation.simplices, Q.tessellation.simplices
-    )
+    simplices = (P.tessellation.simplices, Q.tessellation.simplices)
+    return np.array_equal(P.inner, Q.inner) and np.array_equal(*simplices)
 
 
 def _camera(view) -> tuple[dict[str, float], int]:
     """Elevation and azimuth, and which axis points up."""
-    if view is None:
-        view = VIEW
+    view = VIEW if view is None else view
     if not isinstance(view, Mapping):
         view = dict(zip(VIEW, view, strict=True))
     up = "xyz".index(view.get("vertical_axis", "z"))

@@ -58,13 +58,12 @@ def still_pictures(states: Sequence, scene: dict[str, Any], now: dict[str, Any])
 
 def _settings(states: Sequence, scene: dict[str, Any], now: dict[str, Any]):
     """The states, strategies (by number) and thresholds that the strip shows."""
-    labels = [state.label for state in states]
     names = list(states[0].names)
     k = names.index(now["strategy"]) if now["strategy"] in names else 0
     if len(states) > 1:
         chosen = sorted({0, len(states) // 2, len(states) - 1})
         return [(states[i], k, now["threshold"]) for i in chosen]
-    state = states[labels.index(now["variant"])]
+    (state,) = states
     if not state.hierarchies:
         return [(state, 0, -np.inf)]
     about = scene["variants"][0]["hierarchies"][k]

@@ -87,7 +87,6 @@ def viewer(
     True
     """
     states = as_states(source, strategies, shape)
-    dimension = states[0].skeleton.dimension
     if color not in _COLORS:
         raise InputError(f"unknown color {color!r}; choose one of {', '.join(_COLORS)}.")
     scene, block = pack_scene(states, variant, view)
@@ -97,7 +96,7 @@ def viewer(
         "threshold": 0.0 if threshold is None else float(threshold),
         "strategy": scene["variants"][0]["hierarchies"][0]["label"],
         "variant": states[0].label,
-        "opacity": 1.0 if dimension == 2 else 0.35,
+        "opacity": 1.0 if scene["dimension"] == 2 else 0.35,
         "color": color,
     }
     unknown = state.keys() - {*_STATE, *_SHOWN}
@@ -209,8 +208,7 @@ class SkeletonViewer(anywidget.AnyWidget):
         """
         if not self.strip:
             self.strip = still_pictures(self._states, self.scene, self.get_state_of_picture())
-        state = self.get_state_of_picture()
-        state["threshold"] = None if np.isneginf(self.threshold) else self.threshold
+        state = self.get_state((*_STATE, *_SHOWN))  # as it travels to a browser, so that -inf is null
         data = {"scene": self.scene, "blob": b64encode(self.blob).decode()} | state
         # No sequence of characters in the data may end the script element.
         text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
