@@ -17,7 +17,7 @@ import polyskel_lite as psl
 pytest.importorskip("anywidget", reason="the viewer needs the extra lab")
 
 from polyskel_lite import explore
-from polyskel_lite.explore import _pack
+from polyskel_lite.explore.skeleton_viewer import pack
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
@@ -81,7 +81,7 @@ def test_hierarchies_with_holes_and_both_criteria():
 
 
 def test_arrays_come_back(leaf):
-    packer, rng = _pack.Packer(), np.random.default_rng(0)
+    packer, rng = pack.Packer(), np.random.default_rng(0)
     sent = {
         "small": rng.integers(0, 200, 31),
         "middle": rng.integers(0, 60_000, 32),
@@ -91,9 +91,9 @@ def test_arrays_come_back(leaf):
         "levels": np.array([-np.inf, 0.1, np.inf]),
     }
     refs = {name: packer.add(array, delta=2 * (name == "pairs")) for name, array in sent.items()}
-    data = _pack.unpack(packer.block())
+    data = pack.unpack(packer.block())
     for name, array in sent.items():
-        np.testing.assert_array_equal(_pack.read(data, refs[name]), array)
+        np.testing.assert_array_equal(pack.read(data, refs[name]), array)
         assert refs[name]["at"] % 8 == 0
     assert [refs[name]["type"] for name in ("small", "middle", "large", "levels")] == ["u1", "u2", "u4", "f8"]
 
@@ -102,21 +102,21 @@ def test_places_are_rounded_far_below_a_pixel_and_far_ones_kept(leaf):
     skeleton = leaf.skeleton(-np.inf)
     places = np.vstack([skeleton.vertices, [(1e6, -1e6)]])
     low, high = places[:-1].min(axis=0), places[:-1].max(axis=0)
-    packer = _pack.Packer()
+    packer = pack.Packer()
     ref = packer.places(places, low, high)
-    back = _pack.read_places(_pack.unpack(packer.block()), ref)
+    back = pack.read_places(pack.unpack(packer.block()), ref)
     assert np.abs(back - places)[:-1].max() < 1e-5 * (high - low).max()
     np.testing.assert_array_equal(back[-1], places[-1])
 
 
 def test_radii_and_places_in_the_header_are_those_of_the_skeleton(leaf):
     picture = explore.viewer(leaf)
-    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
+    header, data = picture.scene["variants"][0], pack.unpack(picture.blob)
     skeleton = leaf.skeleton(-np.inf)
-    radii = _pack.read(data, header["radius"]) / _pack.GRID * picture.scene["radius"]
+    radii = pack.read(data, header["radius"]) / pack.GRID * picture.scene["radius"]
     np.testing.assert_allclose(radii, skeleton.radii, atol=1e-4)
-    np.testing.assert_allclose(_pack.read_places(data, header["vertices"]), skeleton.vertices, atol=1e-4)
-    edges = _pack.read(data, header["edges"]).reshape(-1, 2)
+    np.testing.assert_allclose(pack.read_places(data, header["vertices"]), skeleton.vertices, atol=1e-4)
+    edges = pack.read(data, header["edges"]).reshape(-1, 2)
     assert {tuple(e) for e in edges.tolist()} == {tuple(sorted(e)) for e in skeleton.edges.tolist()}
 
 
@@ -196,7 +196,7 @@ def test_skeleton_alone_has_no_threshold():
     assert not picture.scene["shape"]
     assert picture.counts()["edges"] == len(voronoi.edges)
     header = picture.scene["variants"][0]
-    assert _pack.read(_pack.unpack(picture.blob), header["rays"]).size == 8 * len(voronoi.rays)
+    assert pack.read(pack.unpack(picture.blob), header["rays"]).size == 8 * len(voronoi.rays)
     assert picture.to_html().count("<img ") == 1
 
 
@@ -210,17 +210,17 @@ def test_skeleton_in_a_shape():
 def test_polyballs_in_the_plane_and_in_space():
     Y = psl.Polyball([(0, 0), (1, 0), (5, 0)], [1, 0.8, 0.5])
     picture = explore.viewer({"three": Y, "two": psl.Polyball(Y.centers[:2], Y.radii[:2])})
-    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
-    points = _pack.read_places(data, header["points"])
-    outline = points[_pack.read(data, header["surface"])]
+    header, data = picture.scene["variants"][0], pack.unpack(picture.blob)
+    points = pack.read_places(data, header["points"])
+    outline = points[pack.read(data, header["surface"])]
     assert np.abs(Y.boundary_distance(outline)).max() < 1e-3
     assert picture.counts()["vertices"] == len(Y.skeleton().vertices)
     assert not picture.scene["samples"]
     assert picture.to_html().count("<img ") == 2
     solid = psl.Polyball([(0, 0, 0), (1, 0, 0)], [1, 0.8])
     picture = explore.viewer(solid)
-    header, data = picture.scene["variants"][0], _pack.unpack(picture.blob)
-    assert _pack.read(data, header["surface"]).size == solid.patches()[1].size
+    header, data = picture.scene["variants"][0], pack.unpack(picture.blob)
+    assert pack.read(data, header["surface"]).size == solid.patches()[1].size
     assert picture.counts()["edges"] == len(solid.skeleton().edges)
 
 
@@ -262,7 +262,7 @@ def test_saved_page_needs_nothing_else(leaf, tmp_path):
 
 
 def test_module_can_stand_in_a_page():
-    module = (ROOT / "polyskel_lite" / "explore" / "viewer.js").read_text(encoding="utf-8")
+    module = explore.SkeletonViewer._esm
     assert "</script" not in module
     assert not re.search(r"https?://|\bimport\b[^.]*\bfrom\b", module)
 
@@ -298,8 +298,9 @@ explore.viewer
 
 
 def test_names_of_the_package_are_functions_even_after_their_modules_are_imported():
-    importlib.import_module("polyskel_lite.explore.viewer")
-    assert callable(explore.viewer)
+    importlib.import_module("polyskel_lite.explore.explorers")
+    assert explore.balls.__name__ == "balls"
+    assert explore.viewer.__name__ == "viewer"
     assert "viewer" in dir(explore)
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = explore.nothing

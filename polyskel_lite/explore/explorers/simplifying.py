@@ -11,8 +11,8 @@ from ...drawing import chains
 from ...shapes import Shape
 from ...simplification import Hierarchy, Ways, end_vertices, hierarchy, paths_back, ways
 from ...skeletons import sk0
-from ..skeleton_viewer import viewer
 from ..drawing_board import Board, box_around
+from ..skeleton_viewer import viewer
 from .explorer import Explorer
 
 LOOK_FOR = (
