@@ -1,6 +1,7 @@
 """Settings for Sphinx. The choices of the book stand in ../book.toml; the rest makes pages work offline."""
 
 import json
+import runpy
 import tomllib
 from html import escape
 from pathlib import Path
@@ -72,7 +73,8 @@ nb_mime_priority_overrides = [
     ("html", "text/html", 0),
 ]
 nb_ipywidgets_js = {}
-VIEWER = (ROOT / "polyskel_lite" / "explore" / "skeleton_viewer" / "widget.js").read_text(encoding="utf-8")
+BUNDLE = ROOT / "polyskel_lite" / "explore" / "skeleton_viewer" / "bundle.py"
+VIEWER = runpy.run_path(str(BUNDLE))["one_module"]()  # by its path: the book needs no library to be built
 
 
 def add_viewer(app, pagename, templatename, context, doctree):

@@ -1,3 +1,9 @@
-"""The skeleton viewer."""
+"""The skeleton viewer: a widget in JupyterLab and, with the same JavaScript, a picture on a plain page.
+
+`widget` is what Python holds, `scene` and `pack` say what the browser gets, `strip` draws the still pictures
+for readers without scripts, and `bundle` joins the JavaScript modules, of which `page.js` is the first.
+"""
 
 from .widget import SkeletonViewer, viewer
+
+__all__ = ["SkeletonViewer", "viewer"]

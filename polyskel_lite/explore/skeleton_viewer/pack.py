@@ -208,29 +208,25 @@ def _directions(angles: np.ndarray) -> np.ndarray:
     return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
 
 
-def ranks(h: Hierarchy) -> tuple[np.ndarray, np.ndarray]:
-    """When each simplex goes, 0 the first (those that never go come last), and the level of each removal.
+def pack_hierarchy(packer: Packer, h: Hierarchy) -> dict[str, Any]:
+    """Pack when each simplex goes, 0 the first, those that never go last; and the level of each removal.
 
     The levels never decrease along the order of removal. So at a threshold exactly those simplices are gone
     whose rank is below the number of levels below the threshold: one bisection, and whole numbers from there.
 
-    Returns
-    -------
-    rank : (k,) int array
-    levels : (r,) float array
-        Not decreasing.
-
     Examples
     --------
     >>> import polyskel_lite as psl
+    >>> packer = Packer()
     >>> h = psl.hierarchy(psl.datasets.load("lake"))
-    >>> rank, levels = ranks(h)
+    >>> header = pack_hierarchy(packer, h)
+    >>> rank, levels = (read(unpack(packer.block()), header[name]) for name in ("rank", "level"))
     >>> bool(((rank >= np.searchsorted(levels, 3.0)) == (h.level >= 3.0)).all())
     True
     """
     rank = np.full(len(h.level), len(h.order))
     rank[h.order] = np.arange(len(h.order))
-    return rank, h.level[h.order]
+    return {"rank": packer.add(rank), "level": packer.add(h.level[h.order])}
 
 
 def scale(levels: np.ndarray) -> dict[str, Any]:

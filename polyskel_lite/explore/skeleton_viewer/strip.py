@@ -15,10 +15,10 @@ from ... import drawing
 from ...errors import ShapeError
 from ...polyballs import Polyball
 
-WIDTH, DPI = 2.6, 100  # of one picture: inches, and dots an inch
+_WIDTH, _DPI = 2.6, 100  # of one picture: inches, and dots an inch
 
 
-def strip(states: Sequence, scene: dict[str, Any], now: dict[str, Any]) -> str:
+def still_pictures(states: Sequence, scene: dict[str, Any], now: dict[str, Any]) -> str:
     """HTML with up to three pictures, side by side: three thresholds, or three variants.
 
     Parameters
@@ -38,13 +38,13 @@ def strip(states: Sequence, scene: dict[str, Any], now: dict[str, Any]) -> str:
     2
     """
     figures = []
-    for state, k, threshold in settings(states, scene, now):
+    for state, k, threshold in _settings(states, scene, now):
         skeleton = state.hierarchies[k].skeleton(threshold) if state.hierarchies else state.skeleton
         shape = state.P
         if state.hierarchies and now["simplified"] >= 1:
             shape = state.hierarchies[k].shape(threshold)
         words = _words(state, k, threshold, scene, skeleton)
-        data = b64encode(picture(shape, skeleton, scene)).decode()
+        data = b64encode(_picture(shape, skeleton, scene)).decode()
         figures.append(
             '<figure style="margin:0;flex:1 1 9rem;min-width:0">'
             f'<img style="width:100%;height:auto;background:#fff" src="data:image/png;base64,{data}" '
@@ -56,15 +56,14 @@ def strip(states: Sequence, scene: dict[str, Any], now: dict[str, Any]) -> str:
     return f'<div class="psl-strip">{look}{row}{"".join(figures)}</div></div>'
 
 
-def settings(states: Sequence, scene: dict[str, Any], now: dict[str, Any]):
+def _settings(states: Sequence, scene: dict[str, Any], now: dict[str, Any]):
     """The states, strategies (by number) and thresholds that the strip shows."""
-    labels = [state.label for state in states]
     names = list(states[0].names)
     k = names.index(now["strategy"]) if now["strategy"] in names else 0
     if len(states) > 1:
         chosen = sorted({0, len(states) // 2, len(states) - 1})
         return [(states[i], k, now["threshold"]) for i in chosen]
-    state = states[labels.index(now["variant"])]
+    (state,) = states
     if not state.hierarchies:
         return [(state, 0, -np.inf)]
     about = scene["variants"][0]["hierarchies"][k]
@@ -88,7 +87,7 @@ def _words(state, k: int, threshold: float, scene, skeleton) -> str:
     return " ".join(parts)
 
 
-def picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
+def _picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
     """One still picture as PNG.
 
     Examples
@@ -97,7 +96,7 @@ def picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
     >>> from polyskel_lite import explore
     >>> square = psl.delaunay_shape(psl.Shape.from_rings([[(0, 0), (1, 0), (1, 1), (0, 1)]]))
     >>> scene = explore.viewer(square).scene
-    >>> picture(square, psl.sk0(square), scene)[1:4]
+    >>> _picture(square, psl.sk0(square), scene)[1:4]
     b'PNG'
     """
     import matplotlib.pyplot as plt
@@ -105,7 +104,7 @@ def picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
     with plt.rc_context(drawing.RC):
         fig = (_flat if scene["dimension"] == 2 else _solid)(shape, skeleton, scene)
         file = BytesIO()
-        fig.savefig(file, format="png", dpi=2 * DPI, metadata={"Software": None})
+        fig.savefig(file, format="png", dpi=2 * _DPI, metadata={"Software": None})
         plt.close(fig)
     return _smaller(file)
 
@@ -120,7 +119,7 @@ def _smaller(file: BytesIO) -> bytes:
 
 
 def _flat(shape, skeleton, scene):
-    fig, ax = drawing.axes(width=WIDTH, height=0.8 * WIDTH)
+    fig, ax = drawing.axes(width=_WIDTH, height=0.8 * _WIDTH)
     if isinstance(shape, Polyball):
         drawing.draw_balls(ax, shape)
     elif shape is not None:
@@ -134,7 +133,7 @@ def _flat(shape, skeleton, scene):
 
 
 def _solid(shape, skeleton, scene):
-    _, ax = drawing.axes_3d(width=WIDTH, height=0.9 * WIDTH)
+    _, ax = drawing.axes_3d(width=_WIDTH, height=0.9 * _WIDTH)
     ax.view_init(**scene["view"], vertical_axis=scene["up"])
     if isinstance(shape, Polyball):
         points, facets, _ = shape.patches()

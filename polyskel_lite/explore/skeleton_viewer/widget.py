@@ -6,7 +6,6 @@ import html
 import json
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -15,30 +14,16 @@ import anywidget
 import numpy as np
 import traitlets
 
-from ...containment import DelaunayShape, delaunay_shape
-from ...drawing import KINDS, RAMP, VIEW
 from ...errors import InputError
-from ...polyballs import Polyball
-from ...shapes import Shape
-from ...simplification import Hierarchy, hierarchy
-from ...skeletons import Skeleton
-from . import pack, strip
+from . import pack
+from .bundle import one_module
+from .scene import State, as_states, description, pack_scene
+from .strip import still_pictures
 
-_MODULE = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+_MODULE = one_module()
 _COLORS = ("radius", "level", "none")
 _STATE = ("threshold", "strategy", "variant", "opacity", "simplified", "color")
 _SHOWN = ("samples", "vertices", "edges", "polygons")
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """One thing to show: a shape (or none), its whole skeleton, its hierarchies (or none)."""
-
-    label: str
-    P: DelaunayShape | Polyball | None
-    skeleton: Skeleton
-    hierarchies: tuple[Hierarchy, ...]
-    names: tuple[str, ...]
 
 
 def viewer(
@@ -101,19 +86,17 @@ def viewer(
     >>> picture.counts()["branches"] == leaf.branches(np.pi).graph["branches"]
     True
     """
-    states = _states(source, strategies, shape)
-    dimension = states[0].skeleton.dimension
+    states = as_states(source, strategies, shape)
     if color not in _COLORS:
         raise InputError(f"unknown color {color!r}; choose one of {', '.join(_COLORS)}.")
-    place, up = _camera(view)
-    scene, block = _scene(states, variant, place, up)
-    about = alt or _description(states)
+    scene, block = pack_scene(states, variant, view)
+    about = alt or description(states)
     scene |= {"alt": about, "look": look, "height": int(height), "name": "Skeleton viewer"}
     start = {
         "threshold": 0.0 if threshold is None else float(threshold),
         "strategy": scene["variants"][0]["hierarchies"][0]["label"],
         "variant": states[0].label,
-        "opacity": 1.0 if dimension == 2 else 0.35,
+        "opacity": 1.0 if scene["dimension"] == 2 else 0.35,
         "color": color,
     }
     unknown = state.keys() - {*_STATE, *_SHOWN}
@@ -212,8 +195,8 @@ class SkeletonViewer(anywidget.AnyWidget):
     def to_html(self) -> str:
         """The picture as a piece of a page: its data and, where no script runs, three still pictures.
 
-        A page needs the module ``viewer.js`` once besides; `save` writes a whole page, and the book adds
-        the module to its pages by itself.
+        A page needs the viewer's JavaScript (`one_module`) once besides; `save` writes a whole page, and the
+        book adds it to its pages by itself.
 
         Examples
         --------
@@ -224,9 +207,8 @@ class SkeletonViewer(anywidget.AnyWidget):
         (True, 3)
         """
         if not self.strip:
-            self.strip = strip.strip(self._states, self.scene, self.get_state_of_picture())
-        state = self.get_state_of_picture()
-        state["threshold"] = None if np.isneginf(self.threshold) else self.threshold
+            self.strip = still_pictures(self._states, self.scene, self.get_state_of_picture())
+        state = self.get_state((*_STATE, *_SHOWN))  # as it travels to a browser, so that -inf is null
         data = {"scene": self.scene, "blob": b64encode(self.blob).decode()} | state
         # No sequence of characters in the data may end the script element.
         text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
@@ -265,188 +247,3 @@ class SkeletonViewer(anywidget.AnyWidget):
         bundle = super()._repr_mimebundle_(**options)
         data, metadata = bundle if isinstance(bundle, tuple) else (bundle, {})
         return data | {"text/plain": "SkeletonViewer", "text/html": page}, metadata
-
-
-def _states(source, strategies, shape) -> list[State]:
-    if not isinstance(source, Mapping):
-        return [_state("", source, strategies, shape)]
-    if not source:
-        raise InputError("the dict of variants is empty; pass at least one entry, such as a Hierarchy.")
-    around = shape if isinstance(shape, Mapping) else dict.fromkeys(source, shape)
-    if missing := [label for label in source if label not in around]:
-        raise InputError(f"the dict of shapes has no entry {missing[0]!r}; pass one for each variant.")
-    states = [_state(str(label), thing, strategies, around[label]) for label, thing in source.items()]
-    first = states[0]
-    for state in states:
-        if state.names != first.names or state.skeleton.dimension != first.skeleton.dimension:
-            raise InputError(
-                f"variant {state.label!r} has another dimension or other strategies than {first.label!r}; "
-                "all entries of a dict must be of one kind."
-            )
-    if len({state.label for state in states}) < len(states):
-        raise InputError("two variants have the same name; use keys that differ when written.")
-    return states
-
-
-def _state(label: str, source, strategies, shape) -> State:
-    if isinstance(source, Skeleton):
-        P = None if shape is None else _delaunay(shape)
-        return State(label, P, source, (), ())
-    if isinstance(source, Polyball):
-        return State(label, source, source.skeleton(), (), ())
-    if isinstance(source, (Shape, DelaunayShape)):
-        P = _delaunay(source)
-        if strategies is None:
-            strategies = ("branch",) if P.dimension == 2 else ("surface", "wireframe")
-        source = [hierarchy(P, strategy) for strategy in strategies]
-    if isinstance(source, Hierarchy):
-        source = [source]
-    if not isinstance(source, Sequence) or not source or not all(isinstance(h, Hierarchy) for h in source):
-        raise InputError(
-            f"cannot show {type(source).__name__}; pass a Hierarchy, a list of them, a Shape, "
-            "a DelaunayShape, a Polyball, a Skeleton, or a dict of these."
-        )
-    P = source[0].P
-    if any(h.P is not P and not _same(h.P, P) for h in source):
-        raise InputError("the hierarchies are of different shapes; pass a dict to switch between shapes.")
-    names = [h.strategy for h in source]
-    if len(set(names)) < len(names):
-        names = [f"{h.strategy}, {h.criterion}" for h in source]
-    if len(set(names)) < len(names):
-        raise InputError("two hierarchies have the same strategy and criterion; pass each once.")
-    return State(label, P, source[0].skeleton(-np.inf), tuple(source), tuple(names))
-
-
-def _delaunay(shape) -> DelaunayShape | Polyball:
-    return shape if isinstance(shape, (DelaunayShape, Polyball)) else delaunay_shape(shape)
-
-
-def _same(P: DelaunayShape, Q: DelaunayShape) -> bool:
-    return np.array_equal(P.inner, Q.inner) and np.array_equal(
-        P.tessellation.simplices, Q.tessellation.simplices
-    )
-
-
-def _camera(view) -> tuple[dict[str, float], int]:
-    """Elevation and azimuth, and which axis points up."""
-    if view is None:
-        view = VIEW
-    if not isinstance(view, Mapping):
-        view = dict(zip(("elev", "azim"), view, strict=True))
-    up = "xyz".index(view.get("vertical_axis", "z"))
-    return {"elev": float(view.get("elev", VIEW["elev"])), "azim": float(view.get("azim", VIEW["azim"]))}, up
-
-
-def _scene(states: Sequence[State], variant: str, view, up: int) -> tuple[dict[str, Any], bytes]:
-    """The header and the block of arrays that the browser gets."""
-    dimension = states[0].skeleton.dimension
-    # The browser's third axis points up; a cyclic change of axes keeps the orientation.
-    turn = (lambda x: np.roll(x, 2 - up, axis=-1)) if dimension == 3 else (lambda x: x)
-    boxes = [_box(state) for state in states]
-    low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
-    margin = 0.15 * np.linalg.norm(high - low)
-    inside = [_within(state.skeleton, low - margin, high + margin) for state in states]
-    radius = max((float(r.max()) for r in inside if len(r)), default=1.0) or 1.0
-    packer = pack.Packer()
-    grid = turn(low - margin), turn(high + margin)
-    variants = []
-    for state in states:
-        header = {"label": state.label} | pack.pack_skeleton(
-            packer, _turned(state.skeleton, turn), radius, *grid
-        )
-        if isinstance(state.P, Polyball):
-            header |= pack.pack_polyball(packer, state.P, turn, *grid)
-        elif state.P is not None:
-            header |= pack.pack_shape(packer, state.P, turn, *grid)
-        betti = _betti(state)
-        header["hierarchies"] = []
-        for h, name in zip(state.hierarchies, state.names, strict=True):
-            rank, levels = pack.ranks(h)
-            arrays = {"rank": packer.add(rank), "level": packer.add(levels)}
-            header["hierarchies"].append({"label": name, "betti": betti} | arrays)
-        if not state.hierarchies:
-            nothing = {"largest": np.pi, "power": 1, "systematic": False}
-            header["hierarchies"].append({"label": "", "betti": betti} | nothing)
-        variants.append(header)
-    for k in range(len(states[0].names)):
-        # One scale for all variants, so that the slider does not jump.
-        about = pack.scale(np.concatenate([state.hierarchies[k].level for state in states]))
-        for header in variants:
-            header["hierarchies"][k] |= about
-    balls = any(isinstance(state.P, Polyball) for state in states)
-    look = KINDS["balls" if balls else "shape"]
-    colors = {
-        "shape": look.color,
-        "fill": look.fill,
-        "glass": "#8A7F2E" if balls else "#6E7B85",
-        "ghost": "#9AA5AD",
-        "removed": "#F6F6F6",
-        "samples": KINDS["samples"].color,
-        "skeleton": KINDS["sk0"].color,
-        "vertices": "#1A1A1A",
-    }
-    header = {
-        "dimension": dimension,
-        "low": turn(low).tolist(),
-        "high": turn(high).tolist(),
-        "view": view,
-        "up": "xyz"[up],
-        "radius": radius,
-        "ramp": [_hex(RAMP(x)) for x in np.linspace(0, 1, 17)],
-        "colors": colors,
-        "variant": variant[:1].upper() + variant[1:],
-        "strategy": "Strategy",
-        "filters": bool(states[0].names),
-        "shape": any(state.P is not None for state in states),
-        "samples": any(isinstance(state.P, DelaunayShape) for state in states),
-        "variants": variants,
-    }
-    return header, packer.block()
-
-
-def _hex(color) -> str:
-    return "#" + "".join(f"{round(255 * c):02x}" for c in color[:3])
-
-
-def _box(state: State) -> tuple[np.ndarray, np.ndarray]:
-    """The box of what must be seen: the shape, or the skeleton if there is none."""
-    if isinstance(state.P, Polyball):
-        reach = state.P.radii[:, None]
-        return (state.P.centers - reach).min(axis=0), (state.P.centers + reach).max(axis=0)
-    if state.P is not None:
-        points = state.P.tessellation.points[np.unique(state.P.boundary())]
-    elif state.skeleton.tessellation is not None:
-        points = state.skeleton.tessellation.points
-    else:
-        points = state.skeleton.vertices
-    return points.min(axis=0), points.max(axis=0)
-
-
-def _within(skeleton: Skeleton, low, high) -> np.ndarray:
-    """Radii of the vertices in a box; the colours are for these."""
-    inside = ((skeleton.vertices >= low) & (skeleton.vertices <= high)).all(axis=1)
-    return skeleton.radii[inside]
-
-
-def _turned(skeleton: Skeleton, turn) -> Skeleton:
-    parts = {
-        name: getattr(skeleton, name) for name in ("radii", "simplices", "edges", "polygons", "ray_vertices")
-    }
-    return Skeleton(vertices=turn(skeleton.vertices), rays=turn(skeleton.rays), **parts)
-
-
-def _betti(state: State) -> list[int] | None:
-    """Betti numbers; removals keep them, so the smallest skeleton tells them fastest."""
-    if state.hierarchies:
-        return list(state.hierarchies[0].skeleton(np.inf).betti())
-    if state.skeleton.dimension == 3 and len(state.skeleton.rays):
-        return None
-    return list(state.skeleton.betti())
-
-
-def _description(states: Sequence[State]) -> str:
-    """What is shown, in words, when the author gave none."""
-    state = states[0]
-    kind = "flat" if state.skeleton.dimension == 2 else "solid"
-    around = f" inside its {kind} shape" if state.P is not None else ""
-    return f"A skeleton of {len(state.skeleton.vertices):,} vertices{around}, to be moved and simplified."
