@@ -8,10 +8,24 @@ from .errors import DuplicatePointError, InputError
 
 
 def near(points: np.ndarray) -> str:
+    """The middle of some points (k, N) as messages write it.
+
+    Examples
+    --------
+    >>> near(np.array([(0, 1), (1, 1)]))
+    '(0.5, 1)'
+    """
     return "(" + ", ".join(f"{x:g}" for x in points.mean(axis=0)) + ")"
 
 
 def as_facets(facets, n: int, corners: int = 2) -> np.ndarray:
+    """Return rows of vertex numbers, (m, corners) int, or say which one is not from 0 to n - 1.
+
+    Examples
+    --------
+    >>> as_facets([(0, 1), (1, 2)], 3).dtype.kind
+    'i'
+    """
     array = np.array(facets)
     if array.ndim != 2 or array.shape[1] != corners or array.dtype.kind not in "iu":
         raise InputError(
@@ -25,6 +39,13 @@ def as_facets(facets, n: int, corners: int = 2) -> np.ndarray:
 
 
 def as_radii(radii, count: int) -> np.ndarray:
+    """Return radii as a positive finite float64 array (count,) or say which entry is wrong.
+
+    Examples
+    --------
+    >>> as_radii([1, 2], 2).tolist()
+    [1.0, 2.0]
+    """
     try:
         array = np.array(radii, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -92,5 +113,4 @@ def check_distinct(points: np.ndarray, name: str = "points") -> None:
         # lexsort is stable, so the first index of an equal pair is the smaller one.
         pairs = np.sort(np.stack([order[:-1][same], order[1:][same]], axis=1), axis=1)
         i, j = pairs[np.lexsort(pairs.T[::-1])[0]]
-        where = ", ".join(f"{x:g}" for x in points[i])
-        raise DuplicatePointError(f"{name} {i} and {j} are both at ({where}); keep one of them.")
+        raise DuplicatePointError(f"{name} {i} and {j} are both at {near(points[[i]])}; keep one of them.")

@@ -156,7 +156,7 @@ def test_area_is_handed_on_completely():
         level, kind, _, share = collapse.run(
             "wireframe", printed, t.simplices[inner], neighbors, measure, None, t.circumradii[inner]
         )
-        assert (kind == collapse.HAT).any()
+        assert (kind == 1).any()
         # Sums of a thousand areas of size one hundredth, in another order.
         assert (share[level == np.inf].sum() == pytest.approx(total, rel=1e-9)) != printed
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..checks import near
 from ..errors import InputError, TessellationError
 from ..exact import point_segment_distance
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
@@ -191,10 +192,9 @@ def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
         _insert(points, facets, cuts)
         if len(points) > limit:
             k = np.flatnonzero(missing)[0]
-            where = ", ".join(f"{x:g}" for x in array[current[k]].mean(axis=0))
             raise TessellationError(
-                f"more than {limit} vertices are needed, and the boundary near ({where}) is still not in the "
-                f"{to} graph: the shape is very thin there. Widen it, or raise the limit."
+                f"more than {limit} vertices are needed, and the boundary near {near(array[current[k]])} is "
+                f"still not in the {to} graph: the shape is very thin there. Widen it, or raise the limit."
             )
 
 
@@ -229,7 +229,7 @@ def _cut_corner(corner, points, facets, cuts) -> None:
     """Cut both sides at ``corner`` at one distance: a third of the way to anything else."""
     at = (facets == corner).any(axis=1)
     other = np.where(facets[at, 0] == corner, facets[at, 1], facets[at, 0])
-    lengths = np.sqrt(((points[other] - points[corner]) ** 2).sum(axis=1))
+    lengths = np.linalg.norm(points[other] - points[corner], axis=1)
     clearance = point_segment_distance(points[corner], points[facets[~at]]).min(initial=np.inf)
     distance = min(lengths.min(), clearance) / 3
     for k, end, length in zip(np.flatnonzero(at).tolist(), other.tolist(), lengths.tolist(), strict=True):
@@ -278,7 +278,7 @@ def diametral_balls(stage: Stage) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     sides = stage.facets[stage.missing]
     ends = stage.points[sides]
     centers = ends.mean(axis=1)
-    radii = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)) / 2
+    radii = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) / 2
     if not len(sides):
         return centers, radii, np.zeros(0, dtype=np.int64)
     within = cKDTree(stage.points).query_ball_point(centers, radii * _ON_CIRCLE)

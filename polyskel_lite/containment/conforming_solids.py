@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..checks import near
 from ..errors import ContourContainmentError, ShapeError
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
 from ..shapes import Shape
@@ -64,7 +65,7 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
         missing = graph.missing(faces)
         if not len(missing):
             break
-        where = ", ".join(f"{x:g}" for x in points[faces[missing[0]]].mean(axis=0))
+        where = near(points[faces[missing[0]]])
         if len(points) < limit:
             points, faces = split_edges(points, faces, _to_halve(graph, points, faces[missing]))
         if len(points) >= limit or len(points) == graph.n:
@@ -72,7 +73,7 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
             flat = " or has right angles in a plane" if to == "gabriel" else ""
             raise ContourContainmentError(
                 f"{len(given)} of {len(shape.facets)} faces (first: {given[0]}) are not in the {to} graph of "
-                f"the vertices, and with {why} {len(missing)} still are not, one near ({where}): the surface "
+                f"the vertices, and with {why} {len(missing)} still are not, one near {where}: the surface "
                 f"is very near to itself, has a sharp edge{flat} there. Remesh it more evenly, widen it, or "
                 "raise the limit.",
                 given,
@@ -123,7 +124,7 @@ class _Graph:
 def _to_halve(graph: _Graph, points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """One edge of each face: its longest that is not in the graph, or its longest if all are."""
     sides = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
-    length = np.sqrt(((points[sides[:, :, 1]] - points[sides[:, :, 0]]) ** 2).sum(axis=2))
+    length = np.linalg.norm(points[sides[:, :, 1]] - points[sides[:, :, 0]], axis=2)
     there = graph.has_edges(sides.reshape(-1, 2)).reshape(-1, 3)
     first = np.where(there, length, length + 2 * length.max()).argmax(axis=1)
     return sides[np.arange(len(faces)), first]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..checks import near
 from ..errors import ContourContainmentError, InputError
 from ..exact import components, orientation
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
@@ -172,11 +173,11 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
     missing = np.flatnonzero(rows < 0)
     if len(missing):
         first = missing[0]
-        middle = ", ".join(f"{x:g}" for x in shape.points[shape.facets[first]].mean(axis=0))
         raise ContourContainmentError(
             f"{len(missing)} of {len(shape.facets)} facets (first: {first}, vertices "
-            f"{'-'.join(map(str, shape.facets[first]))} near ({middle})) are not in the Delaunay tessellation"
-            ' of the vertices; sample the boundary more densely, or call conform(shape, to="delaunay").',
+            f"{'-'.join(map(str, shape.facets[first]))} near {near(shape.points[shape.facets[first]])}) are "
+            "not in the Delaunay tessellation of the vertices; sample the boundary more densely, or call "
+            'conform(shape, to="delaunay").',
             missing,
         )
     sides, apexes = tessellation.facet_table[1], tessellation.apexes()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..checks import near
 from ..errors import InputError, ReconstructionError
 from ..exact import occurrences
 from ..graphs import as_tessellation, gabriel
@@ -55,7 +56,7 @@ def reconstruct_curve(points) -> Shape:
         raise InputError("points are in 3D; curves are reconstructed in the plane only.")
     points = tessellation.points
     edges = gabriel(tessellation, closed=True)
-    lengths = np.sqrt(((points[edges[:, 1]] - points[edges[:, 0]]) ** 2).sum(axis=1))
+    lengths = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
     order = np.argsort(lengths, kind="stable")
     edges, lengths = edges[order], lengths[order]
     # The length at which each sample gets its second edge; the longest of these is needed for all.
@@ -91,10 +92,9 @@ def reconstruct_curve(points) -> Shape:
 
 
 def _refuse(points, vertex: int, reason: str):
-    where = ", ".join(f"{x:g}" for x in points[vertex])
     raise ReconstructionError(
-        f"sample {vertex} at ({where}) {reason}: these are not samples of an r-regular shape with a largest "
-        "gap w⁻¹ < r. Sample more densely there, round sharp corners, or give the polygon (Shape.from_rings)."
+        f"sample {vertex} at {near(points[[vertex]])} {reason}: these are not samples of an r-regular shape "
+        "with a largest gap w⁻¹ < r. Sample more densely there, round sharp corners, or give the polygon (Shape.from_rings)."
     )
 
 

@@ -93,7 +93,7 @@ def _gentle(points, old, new) -> np.ndarray:
     for pair in (old, new):
         p = points[pair]
         normal = np.cross(p[:, :, 1] - p[:, :, 0], p[:, :, 2] - p[:, :, 0])
-        normals.append(normal / np.maximum(np.sqrt((normal**2).sum(axis=2, keepdims=True)), 1e-300))
+        normals.append(normal / np.maximum(np.linalg.norm(normal, axis=2, keepdims=True), 1e-300))
     normals = np.concatenate(normals, axis=1)
     cosines = (normals[:, :, None] * normals[:, None, :]).sum(axis=3)
     return (cosines.min(axis=(1, 2)) > _BEND) & ~flat.any(axis=1)

@@ -165,4 +165,4 @@ def point_segment_distance(queries: np.ndarray, segments: np.ndarray) -> np.ndar
     length2 = (direction**2).sum(axis=-1)
     t = ((queries - a) * direction).sum(axis=-1) / np.where(length2 > 0, length2, 1)
     foot = a + np.clip(t, 0, 1)[..., None] * direction
-    return np.sqrt(((queries - foot) ** 2).sum(axis=-1))
+    return np.linalg.norm(queries - foot, axis=-1)

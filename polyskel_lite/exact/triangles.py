@@ -310,7 +310,7 @@ def distance_to_triangles(triangles: np.ndarray, queries: np.ndarray) -> np.ndar
     triangles, queries = np.asarray(triangles, dtype=np.float64), np.asarray(queries, dtype=np.float64)
     best = cKDTree(triangles.reshape(-1, 3)).query(queries)[0]
     center = (triangles.min(axis=1) + triangles.max(axis=1)) / 2
-    radius = np.sqrt(((triangles - center[:, None]) ** 2).sum(axis=2)).max(axis=1)
+    radius = np.linalg.norm(triangles - center[:, None], axis=2).max(axis=1)
     # Triangles of one size together: large ones do not make the search around small ones coarse.
     size = np.frexp(radius)[1]
     for k in np.unique(size):
@@ -341,7 +341,7 @@ def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.nd
     sides = [triangles[:, (i, (i + 1) % 3)] for i in range(3)]
     distance = np.min([point_segment_distance(queries, side) for side in sides], axis=0)
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.sqrt((normal**2).sum(axis=1))
+    length = np.linalg.norm(normal, axis=1)
     over = length > 0
     for side in sides:
         inward = np.cross(normal, side[:, 1] - side[:, 0])

@@ -21,7 +21,7 @@ from scipy.ndimage import gaussian_filter
 
 from ..errors import InputError
 from .meshes import MESH_SUFFIXES, read_mesh
-from .svg import svg_rings
+from .svg import distinct, svg_rings
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".pgm", ".pbm", ".ppm")
 # What np.load raises for a file that is cut short, has a byte changed, or is none of its files at all.
@@ -197,11 +197,6 @@ def _contours(values: np.ndarray, level: float) -> list[np.ndarray]:
     return [line[:-1] for line in generator.lines(level)]
 
 
-def _distinct(ring: np.ndarray) -> np.ndarray:
-    """The ring without vertices that repeat the one before."""
-    return ring[(ring != np.roll(ring, 1, axis=0)).any(axis=1)]
-
-
 # --- pictures -------------------------------------------------------------------------------------
 
 
@@ -318,7 +313,7 @@ def _position_ring(positions, where: str) -> np.ndarray:
             f"{where} is open: it begins at {_place(ring[0])} and ends at {_place(ring[-1])}; "
             "repeat the first position at the end."
         )
-    ring = _distinct(ring[:-1])
+    ring = distinct(ring[:-1])
     if len(ring) < 3:
         raise InputError(f"{where} has {len(ring)} different positions; a ring needs at least three.")
     return ring

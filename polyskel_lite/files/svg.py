@@ -63,7 +63,7 @@ def svg_rings(path: str | PathLike, tolerance: float = 1e-3) -> list[np.ndarray]
     chord = tolerance * float(np.hypot(*np.ptp(rough, axis=0)))
     if chord == 0:
         raise InputError("all its paths are one point; draw an outline.")
-    rings = [_distinct(_polygon(pieces, matrix, chord)) for pieces, matrix in closed]
+    rings = [distinct(_polygon(pieces, matrix, chord)) for pieces, matrix in closed]
     rings = [ring for ring in rings if len(ring) > 2]  # a path there and back encloses nothing
     if not rings:
         raise InputError("no path in it encloses an area; draw an outline.")
@@ -148,6 +148,6 @@ def _parameters(segment, chord: float) -> np.ndarray:
     return np.linspace(0, 1, max(4, int(np.ceil(np.sqrt(bend / 8 / chord)))), endpoint=False)
 
 
-def _distinct(ring: np.ndarray) -> np.ndarray:
+def distinct(ring: np.ndarray) -> np.ndarray:
     """The ring without vertices that repeat the one before."""
     return ring[(ring != np.roll(ring, 1, axis=0)).any(axis=1)]

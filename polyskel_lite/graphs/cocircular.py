@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..exact import components, in_ball
+from .mending import neighbors_of
 
 
 def with_segments(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, facets: np.ndarray):
@@ -48,7 +49,7 @@ def with_segments(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarr
     for circle, cuts in diagonals.items():
         kept += _cut(_outline(simplices[label == circle].tolist()), cuts)
     triangles = np.array(kept, dtype=np.int64)
-    return triangles, _neighbors(triangles)
+    return triangles, neighbors_of(triangles)
 
 
 def _outline(triangles) -> list[int]:
@@ -71,10 +72,3 @@ def _cut(polygon: list[int], diagonals: list[tuple[int, int]]) -> list[list[int]
                 rest = [d for d in diagonals if d != (a, b)]
                 return _cut(polygon[i : j + 1], rest) + _cut(polygon[j:] + polygon[: i + 1], rest)
     return [[polygon[0], polygon[k], polygon[k + 1]] for k in range(1, len(polygon) - 1)]
-
-
-def _neighbors(triangles: np.ndarray) -> np.ndarray:
-    owner = {}
-    for t, (a, b, c) in enumerate(triangles.tolist()):
-        owner.update({(b, c): t, (c, a): t, (a, b): t})
-    return np.array([[owner.get(e, -1) for e in ((c, b), (a, c), (b, a))] for a, b, c in triangles.tolist()])

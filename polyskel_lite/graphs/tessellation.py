@@ -10,6 +10,9 @@ import numpy as np
 
 from ..exact import as_integers, circumcenter_terms
 
+#: By the number of corners: the facets opposite them, all seen from the same side in a positive simplex.
+OPPOSITE = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
+
 
 @dataclass(frozen=True, eq=False)
 class Tessellation:
@@ -83,8 +86,9 @@ class Tessellation:
         second = self.neighbors.ravel()
         once = (second < 0) | (first < second)
         opposite = np.tile(np.arange(corners), t)[once]
-        others = np.array([[j for j in range(corners) if j != i] for i in range(corners)])
-        facets = np.sort(np.take_along_axis(self.simplices[first[once]], others[opposite], axis=1), axis=1)
+        facets = np.sort(
+            np.take_along_axis(self.simplices[first[once]], OPPOSITE[corners][opposite], axis=1), axis=1
+        )
         return facets, np.stack([first[once], second[once]], axis=1)
 
     def facets(self) -> np.ndarray:

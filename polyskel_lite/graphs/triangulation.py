@@ -12,6 +12,7 @@ from ..exact import in_ball, orientation
 from .cocircular import with_segments
 from .incremental import incremental_delaunay
 from .mending import mended
+from .tessellation import OPPOSITE
 
 
 def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
@@ -143,16 +144,12 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) ->
         return "a sample is inside a Delaunay ball"
     # Both are positive, so they are on different sides of their facet if they see it in opposite senses.
     near, far = (
-        simplices[first[:, None], _FACETS[size][local]],
-        simplices[second[:, None], _FACETS[size][back]],
+        simplices[first[:, None], OPPOSITE[size][local]],
+        simplices[second[:, None], OPPOSITE[size][back]],
     )
     if not _opposite(near, far).all():
         return "simplices overlap"
     return _hull_problem(points, simplices, neighbors, size)
-
-
-# The facet opposite each corner, all seen from the same side in a positive simplex.
-_FACETS = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
 
 
 def _corners(points, simplices):
@@ -170,8 +167,7 @@ def _opposite(near, far):
 def _hull_problem(points, simplices, neighbors, corners):
     """Every vertex of the hull's surface must be on or behind the planes of the facets next to it."""
     simplex, local = np.nonzero(neighbors < 0)
-    others = np.array([[j for j in range(corners) if j != i] for i in range(corners)])
-    facets = simplices[simplex[:, None], others[local]]
+    facets = simplices[simplex[:, None], OPPOSITE[corners][local]]
     ridges = np.concatenate([np.delete(facets, i, axis=1) for i in range(corners - 1)])
     owner = np.tile(np.arange(len(facets)), corners - 1)
     extra = np.concatenate([facets[:, i] for i in range(corners - 1)])

@@ -51,7 +51,7 @@ def ball(center=(0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
     [1.0]
     """
     center = np.asarray(center, dtype=float)
-    return Field(lambda x: np.sqrt(((x - center) ** 2).sum(axis=1)) - radius, _box(center[None], radius))
+    return Field(lambda x: np.linalg.norm(x - center, axis=1) - radius, _box(center[None], radius))
 
 
 def torus(major: float = 1.0, minor: float = 0.4, center=(0.0, 0.0, 0.0)) -> Field:
@@ -197,7 +197,7 @@ def tube(points, radius, closed: bool = False) -> Field:
             a, way = points[nearest], points[other] - points[nearest]
             length2 = np.maximum((way**2).sum(axis=1), 1e-300)
             t = np.clip(((x - a) * way).sum(axis=1) / length2, 0, 1)
-            distance = np.sqrt(((x - a - t[:, None] * way) ** 2).sum(axis=1))
+            distance = np.linalg.norm(x - a - t[:, None] * way, axis=1)
             out = np.minimum(out, distance - (radius[nearest] + t * (radius[other] - radius[nearest])))
         return out
 
@@ -239,7 +239,7 @@ def _finely(points, radius, closed):
     """The chain with corners at most half the least radius apart."""
     corners = np.column_stack([points, radius])
     corners = np.concatenate([corners, corners[:1]]) if closed else corners
-    length = np.sqrt((np.diff(corners[:, :3], axis=0) ** 2).sum(axis=1))
+    length = np.linalg.norm(np.diff(corners[:, :3], axis=0), axis=1)
     pieces = np.maximum(1, np.ceil(2 * length / max(radius.min(), 1e-300))).astype(int)
     fine = [
         np.linspace(a, b, k, endpoint=False)

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.ndimage import generate_binary_structure, label
 from scipy.spatial import cKDTree
 
+from ..checks import near
 from ..errors import InputError
 
 _MOST_CELLS = 4_000_000
@@ -53,8 +54,8 @@ def grid_of(field, box: np.ndarray, n: int) -> Grid:
     hull = np.ones(inside.shape, dtype=bool)
     hull[1:-1, 1:-1, 1:-1] = False
     if (inside & hull).any():
-        where = ", ".join(f"{x:g}" for x in nodes[inside & hull][0])
-        raise InputError(f"the field is negative at ({where}), on the box; make the box larger.")
+        where = near(nodes[inside & hull][:1])
+        raise InputError(f"the field is negative at {where}, on the box; make the box larger.")
     return Grid(box[0], step, inside, crossings)
 
 
@@ -119,7 +120,7 @@ def project(field, points: np.ndarray, step: float, rounds: int) -> tuple[np.nda
     for _ in range(rounds):
         slope = gradient(field, points, 1e-3 * step)
         way = (field(points) / np.maximum((slope**2).sum(axis=1), 1e-300))[:, None] * slope
-        moved = np.sqrt((way**2).sum(axis=1))
+        moved = np.linalg.norm(way, axis=1)
         # A long step is a sign of a crease, where the gradient says little.
         points -= way * np.minimum(1, step / np.maximum(moved, 1e-300))[:, None]
     return points, moved
@@ -133,7 +134,7 @@ def dense_points(field, grid: Grid, n: int, random) -> tuple[np.ndarray, np.ndar
     jitter[0] = 0
     points, moved = project(field, (crossings + jitter).reshape(-1, 3), grid.step, rounds=4)
     normal = gradient(field, points, 1e-3 * grid.step)
-    length = np.sqrt((normal**2).sum(axis=1))
+    length = np.linalg.norm(normal, axis=1)
     good = (moved < 0.01 * grid.step) & (length > 0) & np.isfinite(points).all(axis=1)
     points, normal = points[good], normal[good] / length[good, None]
     # Grid lines of three directions cross a unit of area |nx| + |ny| + |nz| times.

@@ -185,7 +185,7 @@ class Boundary:
         """
         only_in(3, self, "surface", "length()")
         a, b, c = self.segments.transpose(1, 0, 2)
-        return float(np.sqrt((np.cross(b - a, c - a) ** 2).sum(axis=1)).sum() / 2)
+        return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
     def measure(self) -> float:
         """Area in 2D, volume in 3D.

@@ -60,7 +60,7 @@ def covering_radius(facets: np.ndarray, vertices: np.ndarray, E: np.ndarray) -> 
     share = 1e-9 if facets.shape[1] == 2 else 1e-6
     while len(facets):
         middle = (facets.min(axis=1) + facets.max(axis=1)) / 2
-        reach = np.sqrt(((facets - middle[:, None]) ** 2).sum(axis=2)).max(axis=1)
+        reach = np.linalg.norm(facets - middle[:, None], axis=2).max(axis=1)
         distance = tree.query(middle)[0]
         inner = distance if facets.shape[1] == 2 else tree.query(facets.mean(axis=1))[0]
         best = max(best, float(inner.max()))

@@ -1,6 +1,6 @@
 """The one hot loop of section 4: remove hats and salients, smallest criterion first.
 
-`collapse` is plain Python on flat sequences. With numba installed (the extra ``fast``) it is compiled,
+`remove_in_order` is plain Python on flat sequences. With numba installed (the extra ``fast``) it is compiled,
 without it the same lines run as they are; the results are the same.
 """
 
@@ -11,12 +11,11 @@ from heapq import heappop, heappush
 
 import numpy as np
 
-NEVER, HAT, SALIENT = 0, 1, 2
 _RULES = {"branch": 0, "surface": 1, "wireframe": 2}
 _INF = float("inf")
 
 
-def collapse(
+def remove_in_order(
     size, rule, printed, simplices, neighbors, alive, count, share, measure, alpha, radii, level, kind, order
 ):
     """Remove simplices until none can go; fills ``level``, ``kind`` and ``order``.
@@ -141,7 +140,7 @@ def _compiled():
         from numba import njit
     except ImportError:
         return None
-    return njit(cache=True)(collapse)
+    return njit(cache=True)(remove_in_order)
 
 
 def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, compiled: bool | None = None):
@@ -190,7 +189,7 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     if loop is None:
         # Python reads lists several times faster than arrays.
         lists = [array.tolist() for array in arrays]
-        removed = collapse(size, _RULES[rule], printed, *lists)
+        removed = remove_in_order(size, _RULES[rule], printed, *lists)
         level, kind, order, share = (np.array(lists[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
     else:
         removed = loop(size, _RULES[rule], printed, *arrays)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..graphs import Tessellation
-
-_OTHERS = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
+from ..graphs import OPPOSITE, Tessellation
 
 
 def _facet_normals(tessellation: Tessellation, rows) -> np.ndarray:
     """Twice the area vector of each triangle opposite a corner, pointing outward, (4, 3, t)."""
     corners = tessellation.points.T[:, tessellation.simplices[rows].T]
     normals = np.empty((4, 3, corners.shape[2]))
-    for i, (a, b, c) in enumerate(_OTHERS[4]):
+    for i, (a, b, c) in enumerate(OPPOSITE[4]):
         (ux, uy, uz), (vx, vy, vz) = corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]
         normals[i] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
     return normals
@@ -36,7 +34,7 @@ def facet_measures(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
     """
     if tessellation.dimension == 3:
         return np.sqrt((_facet_normals(tessellation, rows) ** 2).sum(axis=1)).T / 2
-    ends = tessellation.points[tessellation.simplices[rows][:, _OTHERS[3]]]
+    ends = tessellation.points[tessellation.simplices[rows][:, OPPOSITE[3]]]
     return np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2))
 
 

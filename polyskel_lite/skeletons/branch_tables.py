@@ -48,7 +48,7 @@ def branch_rows(skeleton: Skeleton) -> list[Branch]:
     rows = []
     for a, b, data in graph.edges(data=True):
         points, radii = skeleton.vertices[data["path"]], np.asarray(data["radii"])
-        pieces = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1))
+        pieces = np.linalg.norm(np.diff(points, axis=0), axis=1)
         mean = float(radii.mean())
         if pieces.sum() > 0:
             mean = float((pieces * (radii[1:] + radii[:-1]) / 2).sum() / pieces.sum())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError
-from ..exact import occurrences
+from ..exact import components, occurrences
 from .skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def _add_branch(graph, skeleton, path, real):
     if len(real) == 1 and path[0] < len(skeleton.vertices) and vertices[0] != path[0]:
         vertices.reverse()
     points = skeleton.vertices[vertices]
-    length = float(np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1)).sum())
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     graph.add_edge(path[0], path[-1], path=vertices, length=length, radii=skeleton.radii[vertices].tolist())
 
 
@@ -124,8 +124,6 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
 
 def _sheet_of(skeleton: Skeleton):
     """For each vertex the sheet it is on, or -1, and the vertices of each sheet."""
-    from ..exact import components
-
     n = len(skeleton.vertices)
     node = np.full(n, -1)
     if not len(skeleton.polygons):

@@ -98,7 +98,7 @@ def _parts(thing, name):
 
 
 def _points_along(points, ends, step):
-    lengths = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = np.ceil(lengths / step).astype(np.intp) if step > 0 else np.zeros(len(lengths), dtype=np.intp)
     inner = np.maximum(count - 1, 0)
     which = np.repeat(np.arange(len(ends)), inner)

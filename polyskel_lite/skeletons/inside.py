@@ -99,7 +99,7 @@ class VoronoiInside:
         def add(row, t):
             points.append(self._at(row, t))
             # All samples of the facet are at this distance, and none is nearer.
-            radii.append(np.sqrt(((points[-1] - tessellation.points[facets[row, 0]]) ** 2).sum()))
+            radii.append(np.linalg.norm(points[-1] - tessellation.points[facets[row, 0]], axis=0))
             return len(sk2.vertices) + len(points) - 1
 
         for row, intervals in sorted(self.pieces.items()):

@@ -23,11 +23,11 @@ def crossing(edges, segments, slack):
         return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
 
     # Signed distances of each one's ends to the other one's line; rounding and slack blur them.
-    length_d, length_e = np.sqrt((d**2).sum(axis=1)), np.sqrt((e**2).sum(axis=1))
+    length_d, length_e = np.linalg.norm(d, axis=1), np.linalg.norm(e, axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         of_edge = np.stack([cross(e, p - a), cross(e, p + d - a)]) / length_e
         of_segment = np.stack([cross(d, a - p), cross(d, a + e - p)]) / length_d
-        span = length_d + length_e + np.sqrt(((a - p) ** 2).sum(axis=1))
+        span = length_d + length_e + np.linalg.norm(a - p, axis=1)
         blur = 2 * slack + 16 * 2.0**-53 * span
         # Tilting the edge by its error moves its line at most this much where the segment is.
         blur_segment = blur * (1 + 2 * span / length_d)

@@ -96,10 +96,10 @@ def crossing(ends, triangles, slack):
     a = triangles[:, 0]
     sides = np.roll(triangles, -1, axis=1) - triangles
     normal = np.cross(sides[:, 0], sides[:, 1])
-    length = np.sqrt((way**2).sum(axis=1))
+    length = np.linalg.norm(way, axis=1)
     span = length + np.abs(p - a).sum(axis=1) + np.abs(sides).sum(axis=(1, 2))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        twice_area = np.sqrt((normal**2).sum(axis=1))
+        twice_area = np.linalg.norm(normal, axis=1)
         normal = normal / twice_area[:, None]
         # Thin triangles have a rounded normal.
         blur = slack + _ROUNDING * span * (1 + (sides**2).sum(axis=(1, 2)) / twice_area)
@@ -111,7 +111,7 @@ def crossing(ends, triangles, slack):
         depth = np.full(len(p), np.inf)
         for k in range(3):
             inward = np.cross(normal, sides[:, k])
-            inward /= np.sqrt((sides[:, k] ** 2).sum(axis=1))[:, None]
+            inward /= np.linalg.norm(sides[:, k], axis=1)[:, None]
             depth = np.minimum(depth, ((x - triangles[:, k]) * inward).sum(axis=1))
     sided = (np.abs(first) > blur) & (np.abs(second) > blur)
     apart = sided & (first * second > 0)

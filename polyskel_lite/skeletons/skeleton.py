@@ -91,6 +91,17 @@ class Skeleton:
         """
         return self.vertices[self.edges]
 
+    def lengths(self) -> np.ndarray:
+        """Length of every edge, (e,).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).lengths().round(3).tolist()
+        [0.559]
+        """
+        return np.linalg.norm(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
+
     def length(self) -> float:
         """Total length of the edges (rays not counted).
 
@@ -100,8 +111,7 @@ class Skeleton:
         >>> psl.voronoi([(0, 0), (2, 0), (0, 2), (2, 2)]).length()
         0.0
         """
-        ends = self.segments()
-        return float(np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).sum())
+        return float(self.lengths().sum())
 
     def betti(self) -> tuple[int, ...]:
         """Betti numbers (b0, b1) in 2D, (b0, b1, b2) in 3D, of the abstract complex.
@@ -148,11 +158,8 @@ class Skeleton:
         graph.add_nodes_from(
             (k, {"pos": tuple(p), "radius": r, "simplex": s}) for k, (p, r, s) in enumerate(rows)
         )
-        ends = self.segments()
-        length = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)).tolist()
-        graph.add_edges_from(
-            (a, b, {"length": s}) for (a, b), s in zip(self.edges.tolist(), length, strict=True)
-        )
+        pairs = zip(self.edges.tolist(), self.lengths().tolist(), strict=True)
+        graph.add_edges_from((a, b, {"length": length}) for (a, b), length in pairs)
         return graph
 
     def balls(self) -> Any:

@@ -83,7 +83,7 @@ def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:
     inward = orientation(np.concatenate([corners, apex[:, None]], axis=1)) > 0
     normal[inward] *= -1
     # Adding zero turns -0.0 into 0.0, which reads better.
-    return normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)) + 0.0
+    return normal / np.linalg.norm(normal, axis=1, keepdims=True) + 0.0
 
 
 def _local(tessellation, cut):
