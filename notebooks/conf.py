@@ -102,7 +102,18 @@ def say_what_colab_needs(app, pagename, templatename, context, doctree):
         context["body"] = context["body"].replace("</h1>", "</h1>" + hint, 1)
 
 
+def draw_the_house(app, docname, source):
+    """Put the rooms and their arrows, read from the code, into the page that explains them."""
+    if docname == "house":
+        house = runpy.run_path(str(ROOT / "tools" / "house.py"))
+        for name in ("picture", "table"):
+            drawn = house[name](house["sources"]())
+            source[0] = source[0].replace(f"```{{psl-house-{name}}}\n```", drawn)
+
+
 def setup(app):
+    app.connect("source-read", draw_the_house)
+    app.connect("env-get-outdated", lambda *_: ["house"])  # its code may have changed though the page has not
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)
     app.connect("html-page-context", add_viewer)

@@ -12,21 +12,21 @@ from pathlib import Path
 from typing import NamedTuple
 
 PACKAGE = Path(__file__).resolve().parent.parent / "polyskel_lite"
-#: From the ground up, with the section of the paper.
+#: From the ground up: the section of the paper, and where the room stands in the picture, from left to right.
 ROOMS = {
-    "exact": "",
-    "files": "",
-    "graphs": "2.2",
-    "shapes": "2.1",
-    "containment": "3.4, 3.5",
-    "skeletons": "3",
-    "simplification": "4",
-    "polyballs": "A",
-    "datasets": "",
-    "implicit": "",
-    "drawing": "",
-    "figures": "",
-    "explore": "",
+    "exact": ("", 1.0),
+    "files": ("", 2.4),
+    "graphs": ("2.2", 0.5),
+    "shapes": ("2.1", 1.9),
+    "containment": ("3.4, 3.5", 1.2),
+    "skeletons": ("3", 1.0),
+    "simplification": ("4", 1.7),
+    "polyballs": ("A", 0.4),
+    "datasets": ("", 3.0),
+    "implicit": ("", 2.1),
+    "drawing": ("", 0.4),
+    "figures": ("", 1.3),
+    "explore": ("", 2.4),
 }
 
 
@@ -111,7 +111,7 @@ def table(texts: dict[str, str]) -> str:
     rows = ["| room | section | what is in it | lines | imports from |", "|---|---|---|---|---|"]
     for name, _, lines, below in facts(texts):
         what = ast.get_docstring(ast.parse(texts[name])).splitlines()[0].rstrip(".:")
-        rows.append(f"| `{name}` | {ROOMS[name]} | {what} | {lines:,} | {', '.join(below) or 'nothing'} |")
+        rows.append(f"| `{name}` | {ROOMS[name][0]} | {what} | {lines:,} | {', '.join(below) or 'nothing'} |")
     return "\n".join(rows)
 
 
@@ -125,16 +125,12 @@ def picture(texts: dict[str, str]) -> str:
     for name in ROOMS:
         reach[name] = below[name].union(*(reach[other] for other in below[name]))
     width, height, step = 132, 44, 84
-    place = {}
-    for k in range(max(floor.values()) + 1):
-        on = [name for name in ROOMS if floor[name] == k]
-        for j, name in enumerate(on):
-            place[name] = (
-                360 + (j - (len(on) - 1) / 2) * (width + 48),
-                (max(floor.values()) - k) * step + 30,
-            )
+    top = max(floor.values())
+    place = {
+        name: (40 + 190 * column, (top - floor[name]) * step + 30) for name, (_, column) in ROOMS.items()
+    }
     said = "; ".join(f"{name} from {', '.join(sorted(rooms)) or 'nothing'}" for name, rooms in below.items())
-    tall = step * (max(floor.values()) + 1)
+    tall = step * top + 60
     out = [
         f'<svg viewBox="0 0 720 {tall}" role="img" style="max-width:720px;width:100%"',
         f' aria-label="{escape(f"Rooms of the library on their floors. Imports: {said}.")}" fill="none"',
@@ -146,12 +142,11 @@ def picture(texts: dict[str, str]) -> str:
             out.append(f'<path d="M{x},{y + height / 2} L{u},{v - height / 2 - 6}" opacity="0.6"/>')
             out.append(f'<path d="M{u - 4},{v - height / 2 - 8} l4,8 l4,-8" opacity="0.6"/>')
     for name, (x, y) in place.items():
-        left, top = x - width / 2, y - height / 2
-        out.append(f'<rect x="{left}" y="{top}" width="{width}" height="{height}" rx="5" class="psl-room"/>')
+        left, upper = x - width / 2, y - height / 2
+        out.append(f'<rect x="{left}" y="{upper}" width="{width}" height="{height}" rx="5"/>')
         text = 'stroke="none" fill="currentColor" text-anchor="middle"'
-        number = (
-            f"section {ROOMS[name]}" if ROOMS[name][:1].isdigit() else "appendix A" if ROOMS[name] else ""
-        )
+        section = ROOMS[name][0]
+        number = section and ("appendix A" if section == "A" else f"section {section}")
         out.append(f'<text x="{x}" y="{y + (-2 if number else 5)}" {text}>{name}</text>')
         out.append(f'<text x="{x}" y="{y + 15}" {text} font-size="11">{number}</text>' if number else "")
     return "".join([*out, "</svg>"])

@@ -94,7 +94,8 @@ def reconstruct_curve(points) -> Shape:
 def _refuse(points, vertex: int, reason: str):
     raise ReconstructionError(
         f"sample {vertex} at {near(points[[vertex]])} {reason}: these are not samples of an r-regular shape "
-        "with a largest gap w⁻¹ < r. Sample more densely there, round sharp corners, or give the polygon (Shape.from_rings)."
+        "with a largest gap w⁻¹ < r. Sample more densely there, round sharp corners, or give the polygon "
+        "(Shape.from_rings)."
     )
 
 
