@@ -189,7 +189,7 @@ def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
         for k in np.flatnonzero(missing).tolist():
             if k not in cuts and not corners & set(facets[k]):
                 cuts[k] = array[current[k]].mean(axis=0)[None]
-        _insert(points, facets, cuts)
+        _insert(shape, points, facets, cuts)
         if len(points) > limit:
             k = np.flatnonzero(missing)[0]
             raise TessellationError(
@@ -198,16 +198,22 @@ def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
             )
 
 
-def _insert(points, facets, cuts) -> None:
+def _insert(shape: Shape, points, facets, cuts) -> None:
+    taken = set(points)
     for k, cut in cuts.items():
         a, b = facets[k]
         chain = [a]
         for point in map(tuple, cut.tolist()):
-            if point in (points[a], points[b]):
+            if point in taken:
+                # The reader knows the vertices of the shape, and none that were added.
+                _, (i, j) = cKDTree(shape.points).query(point, k=2)
+                apart = np.linalg.norm(shape.points[i] - shape.points[j])
                 raise TessellationError(
-                    f"the segment from {points[a]} to {points[b]} is too short to be halved in floats; "
-                    "remove vertices that nearly coincide, or move the shape nearer to the origin."
+                    f"near {near(np.array([point]))}, floats leave no room for another vertex: vertices "
+                    f"{min(i, j)} and {max(i, j)} are {apart:.2g} apart there; merge vertices closer than "
+                    f"{2 * apart:.1g}, or move the shape nearer to the origin."
                 )
+            taken.add(point)
             chain.append(len(points))
             points.append(point)
         chain.append(b)

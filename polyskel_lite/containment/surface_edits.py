@@ -153,7 +153,11 @@ def split_edges(points: np.ndarray, faces: np.ndarray, wish: np.ndarray) -> tupl
     chosen = _independent(wanted[np.argsort(-length[wanted], kind="stable")], owners, keys)
     a, b, c, d = corners[chosen].T
     middle = (points[a] + points[b]) / 2
-    moved = (middle != points[a]).any(axis=1) & (middle != points[b]).any(axis=1)
+    # Where floats leave no room, the middle is a vertex that is there already.
+    _, place, count = np.unique(
+        np.concatenate([points, middle]), axis=0, return_inverse=True, return_counts=True
+    )
+    moved = count[place.ravel()[n:]] == 1
     chosen, a, b, c, d = chosen[moved], a[moved], b[moved], c[moved], d[moved]
     m = n + np.arange(len(chosen))
     out = faces.copy()

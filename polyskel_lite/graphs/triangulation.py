@@ -67,6 +67,8 @@ def _candidates(points):
 
 def _qhull(points):
     tessellation = Delaunay(points)
+    if (tessellation.simplices >= len(points)).any():  # seen for points that are nearly in one line
+        raise QhullError("a simplex has a corner at infinity")
     return tessellation.simplices.astype(np.int64), tessellation.neighbors.astype(np.int64)
 
 

@@ -151,15 +151,18 @@ class VoronoiInside:
         low[clear] = np.maximum(low[clear], self.ends[clear].min(axis=1) - slack[clear, None])
         high[clear] = np.minimum(high[clear], self.ends[clear].max(axis=1) + slack[clear, None])
         meet = clear[(low[clear] <= high[clear]).all(axis=1)]
-        hits = [(np.zeros(0, dtype=np.int64), np.zeros(0))]
+        hits = [(np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros(0, dtype=np.int64))]
         for i, j in overlapping_pairs(low[meet], high[meet], self.low, self.high):
             i = meet[i]
             t, meets, unsure = crossing(self.ends[i], self.boundary[j], slack[i])
             doubt[i[unsure]] = True
-            hits.append((i[meets], t[meets]))
-        rows, times = (np.concatenate(column) for column in zip(*hits, strict=True))
+            hits.append((i[meets], t[meets], j[meets]))
+        rows, times, facets = (np.concatenate(column) for column in zip(*hits, strict=True))
         order = np.lexsort((times, rows))
         rows, times = rows[order], times[order]
+        self.met = dict(
+            zip(zip(rows.tolist(), times.tolist(), strict=True), facets[order].tolist(), strict=True)
+        )
         starts_inside = self.inside[sides[:, 0]]
         whole = starts_inside & ~doubt
         whole[rows] = False
@@ -212,5 +215,10 @@ class VoronoiInside:
     def _at(self, row, t) -> np.ndarray:
         if isinstance(t, Fraction):
             return np.array([float(x) for x in between(*self._exact_ends(row), t)])
-        a, b = self.ends[row]
-        return a + t * (b - a)
+        # Circumcenters far away are rounded coarsely. The point of the facet that is as far from all samples
+        # of the edge is not.
+        samples = self.tessellation.points[self.tessellation.facets()[row]]
+        corner, *others = self.boundary[self.met[row, t]]
+        along, ways = np.array(others) - corner, samples[1:] - samples[0]
+        half = (ways * ways).sum(axis=1) / 2
+        return corner + np.linalg.solve(ways @ along.T, half - ways @ (corner - samples[0])) @ along
