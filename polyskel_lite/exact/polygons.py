@@ -61,6 +61,19 @@ class Polygons(Sequence):
         after[self._ends - 1] = self._ends - self.sizes
         return np.column_stack([self.corners, self.corners[after]])
 
+    def triangles(self) -> np.ndarray:
+        """Every polygon cut into triangles from its first corner, (t, 3).
+
+        Examples
+        --------
+        >>> Polygons.of([[4, 5, 6], [0, 1, 2, 3]]).triangles().tolist()
+        [[4, 5, 6], [0, 1, 2], [0, 2, 3]]
+        """
+        count = self.sizes - 2
+        first = np.repeat(self._ends - self.sizes, count)
+        along = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+        return self.corners[np.column_stack([first, along, along + 1])]
+
     def __getitem__(self, k):
         if isinstance(k, slice):
             return [self[i] for i in range(*k.indices(len(self)))]
