@@ -157,8 +157,8 @@ class Explorer(WithStandIn):
         self.say(f"{remark} {line}".strip(), numbers)
 
     def say(self, sentence: str, numbers: Mapping[str, object]) -> None:
-        """Set the line under the board to a sentence, and `numbers` to what it says."""
-        self.board.text, self.numbers = sentence, dict(numbers)
+        """Set `numbers`, and the line under the board to a sentence that says them."""
+        self.numbers, self.board.text = dict(numbers), sentence
 
     def stand_in(self) -> str:
         """HTML of the picture and the sentences for a page without a kernel.
