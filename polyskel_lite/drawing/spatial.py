@@ -39,7 +39,8 @@ def draw_facets_3d(
 
     Examples
     --------
-    >>>     >>> from polyskel_lite import drawing
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
     >>> fig, ax = drawing.axes_3d()
     >>> ax = drawing.draw_facets_3d(ax, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3)])
     >>> len(ax.collections[0].get_facecolor())
@@ -77,7 +78,8 @@ def draw_lines_3d(ax: Axes, segments, kind: str = "delaunay", **style) -> Axes:
 
     Examples
     --------
-    >>>     >>> from polyskel_lite import drawing
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
     >>> fig, ax = drawing.axes_3d()
     >>> ax = drawing.draw_lines_3d(ax, [[(0, 0, 0), (1, 1, 1)]])
     >>> len(ax.collections)
@@ -108,7 +110,8 @@ def draw_samples_3d(ax: Axes, points, kind: str = "samples", **style) -> Axes:
 
     Examples
     --------
-    >>>     >>> from polyskel_lite import drawing
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
     >>> fig, ax = drawing.axes_3d()
     >>> ax = drawing.draw_samples_3d(ax, [(0, 0, 0), (1, 1, 1)])
     >>> len(ax.lines)
@@ -129,7 +132,8 @@ def draw_mesh(ax: Axes, mesh, kind: str = "shape", alpha: float = 1.0, **style) 
 
     Examples
     --------
-    >>>     >>> from types import SimpleNamespace
+    >>> import matplotlib.pyplot as plt
+    >>> from types import SimpleNamespace
     >>> from polyskel_lite import drawing
     >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
     >>> mesh = SimpleNamespace(points=points, facets=[(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...containment import DelaunayShape, conform, delaunay_shape
 from ...datasets import load
+from ...drawing import chains
 from ...errors import InputError, PolyskelError
 from ...shapes import Shape, check_shape
 from ..drawing_board import Board
@@ -202,6 +203,17 @@ def refined(shape: Shape | DelaunayShape, to: str | None = None) -> DelaunayShap
     (True, True)
     """
     return shape if isinstance(shape, DelaunayShape) else delaunay_shape(conform(shape, to))
+
+
+def outline(points: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
+    """The rings that the sides of a boundary make, as polygons for `Board.draw`.
+
+    Examples
+    --------
+    >>> [len(ring) for ring in outline(np.eye(3, 2), [(0, 1), (1, 2), (2, 0)])]
+    [4]
+    """
+    return [points[path] for path in chains(edges)]
 
 
 def sample_sliders(shape: Shape, n: int, start: float = 0.0) -> dict[str, ipywidgets.Widget]:

@@ -10,9 +10,8 @@ import numpy as np
 
 from ... import datasets
 from ...containment import Stage, conform_stages, diametral_balls
-from ...drawing import chains
 from ..drawing_board import Board, box_around
-from .explorer import Explorer
+from .explorer import Explorer, outline
 
 if TYPE_CHECKING:
     from ...shapes import Shape
@@ -105,10 +104,9 @@ class Refinement(Explorer):
     def _draw_stage(self, stage: Stage, before: Stage) -> None:
         draw, points, first, old = self.board.draw, stage.points, self.stages[0], len(before.points)
         centers, radii, intruders = diametral_balls(stage)
-        rings = [first.points[path] for path in chains(first.facets)]
         there = np.delete(stage.facets, stage.missing, axis=0)
         missing, seen = stage.facets[stage.missing], self.controls["balls"].value
-        draw("shape", "shape", polygons=rings, stroke=False)
+        draw("shape", "shape", polygons=outline(first.points, first.facets), stroke=False)
         draw("balls", "balls", seen, circles=(centers, radii), opacity=0.6, label="smallest ball")
         draw("there", "gabriel", lines=points[there], label="side in the graph")
         draw("missing", "sk0", lines=points[missing], width=1.6, label="side not in it")

@@ -9,13 +9,12 @@ import numpy as np
 
 from ... import datasets
 from ...containment import DelaunayShape
-from ...drawing import chains
 from ...shapes import Shape
 from ...simplification import STRATEGIES, Hierarchy, end_vertices, hierarchy, paths_back, ways
 from ...skeletons import sk0
 from ..drawing_board import Board, box_around
 from ..skeleton_viewer import viewer
-from .explorer import Explorer, WithStandIn, refined
+from .explorer import Explorer, WithStandIn, outline, refined
 
 LOOK_FOR = (
     "Move the threshold from left to right. Look for the order in which branches go, small ripples of the "
@@ -84,8 +83,9 @@ class Thresholds(Explorer):
         ends = ipywidgets.Dropdown(
             options=["nothing", "their balls", "the way they have come"], description="show at the ends"
         )
-        board = Board(box_around(P.tessellation.points, 0.03), alt=ALT)
-        board.draw("shape", "shape", polygons=_outline(P), label="shape")
+        points = P.tessellation.points
+        board = Board(box_around(points, 0.03), alt=ALT)
+        board.draw("shape", "shape", polygons=outline(points, P.boundary()), label="shape")
         board.draw("all", "complement", lines=sk0(P).segments(), label="whole skeleton")
         super().__init__(board, {"threshold": threshold, "criterion": criterion, "ends": ends}, LOOK_FOR)
 
@@ -99,9 +99,10 @@ class Thresholds(Explorer):
         h, draw, shown = self.hierarchy, self.board.draw, self.controls["ends"].value
         threshold = self.controls["threshold"].value * np.pi
         ends = h.simplices[end_vertices(h, threshold)]
-        places, radii = self.P.tessellation.circumcenters[ends], self.P.tessellation.circumradii[ends]
+        t = self.P.tessellation
+        places, radii = t.circumcenters[ends], t.circumradii[ends]
         back, way, ball = paths_back(h, threshold, self._ways(h)), "the way they have come", "their balls"
-        left, simplified = h.skeleton(threshold).segments(), _outline(h.shape(threshold))
+        left, simplified = h.skeleton(threshold).segments(), outline(t.points, h.shape(threshold).boundary())
         draw("simplified", "delaunay", polygons=simplified, label="simplified shape", order=1.2)
         draw("skeleton", "sk0", lines=left, label="skeleton left")
         draw("ways", "sk2", shown == way, lines=back, label="the way its ends have come")
@@ -109,10 +110,6 @@ class Thresholds(Explorer):
         draw("ends", "sk2", shown in (way, ball), points=places, width=1.4)
         numbers = threshold_numbers(h, threshold)
         self.say(threshold_text(numbers), numbers)
-
-
-def _outline(P: DelaunayShape) -> list[np.ndarray]:
-    return [P.tessellation.points[path] for path in chains(P.boundary())]
 
 
 class SolidThresholds(WithStandIn):
