@@ -8,6 +8,9 @@ from matplotlib.axes import Axes
 from .lines import box_of, clip_segments, in_box, ray_segments
 from .spatial import draw_facets_3d, draw_lines_3d
 
+#: Corners of the facet opposite each corner of a tetrahedron.
+OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
+
 
 def draw_tessellation_3d(
     ax: Axes, tessellation, shrink: float = 1.0, spread: float = 0.0, alpha: float = 0.55
@@ -44,9 +47,7 @@ def draw_tessellation_3d(
     centroids = corners.mean(axis=1, keepdims=True)
     middle = np.asarray(tessellation.points).mean(axis=0)
     moved = centroids + spread * (centroids - middle) + shrink * (corners - centroids)
-    index = 4 * np.arange(len(corners))[:, None, None] + np.array(
-        [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)]
-    )
+    index = 4 * np.arange(len(corners))[:, None, None] + np.array(OPPOSITE)
     return draw_facets_3d(ax, moved.reshape(-1, 3), index.reshape(-1, 3), kind="delaunay", alpha=alpha)
 
 

@@ -98,11 +98,9 @@ def _classified_triangle(ax: Axes, P: DelaunayShape, this: int) -> None:
     for row in np.flatnonzero(P.inner):
         fill = THIS if row == this else REST
         drawing.draw_shape(ax, [corners[row]], facecolor=fill, linewidth=0.6)
-    for i in range(3):
-        neighbor = t.neighbors[this, i]
-        if neighbor >= 0 and P.inner[neighbor]:
-            side = np.delete(corners[this], i, axis=0)
-            drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
+    for i in np.flatnonzero(np.append(P.inner, False)[t.neighbors[this]]):
+        side = np.delete(corners[this], i, axis=0)
+        drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
     drawing.focus(ax, corners[P.inner].reshape(-1, 2), margin=0.06)
 
 

@@ -12,8 +12,6 @@ from ..containment import DelaunayShape
 from ..graphs import delaunay
 from ..skeletons import sk0
 
-#: Corners of the facet opposite each corner of a tetrahedron.
-OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 #: Look of the simplex a picture is about, of the facets it shares with the shape, and of the rest.
 THIS, SHARED, REST = "#8CCBF0", "#F0B48C", "#E2E2E2"
 
@@ -186,7 +184,7 @@ def draw_apart(
     corners = t.points[t.simplices[rows]]
     centroids = corners.mean(axis=1, keepdims=True)
     corners = centroids + shrink * (corners - centroids) + spread * (centroids - centroids.mean(axis=0))
-    triangles = corners[:, OPPOSITE]
+    triangles = corners[:, drawing.OPPOSITE]
     beyond = np.where(np.append(P.inner, False)[t.neighbors[rows]], t.neighbors[rows], -1)
     shared = (beyond >= 0) & ((beyond == this) | (rows == this)[:, None])
     colors = np.where(shared, SHARED, np.where(rows == this, THIS, REST)[:, None])

@@ -122,13 +122,15 @@ class SolidThresholds(WithStandIn):
     hierarchies : list of Hierarchy
     """
 
+    look_for = LOOK_FOR_3D
+
     def __init__(self, P: DelaunayShape):
         self.hierarchies = [
             hierarchy(P, strategy, criterion)
             for strategy in STRATEGIES[3]
             for criterion in ("corrected", "as printed")
         ]
-        self.look_for, about = LOOK_FOR_3D, "A solid and its simplified skeleton."
+        about = "A solid and its simplified skeleton."
         self.picture = viewer(self.hierarchies, threshold=np.pi / 3, alt=about, look=self.look_for)
         super().__init__([self.picture])
 
