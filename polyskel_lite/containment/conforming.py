@@ -120,14 +120,18 @@ class Stage(NamedTuple):
     missing : (k,) int array
         Rows of ``facets`` that are not in the graph; empty in the last stage.
     corners : (c,) int array
-        The acute corners whose two sides are cut at one distance in this round; the other missing sides
-        are halved.
+        The acute corners whose two sides are cut at one distance in this round.
     """
 
     points: np.ndarray
     facets: np.ndarray
     missing: np.ndarray
     corners: np.ndarray
+
+    @property
+    def halved(self) -> np.ndarray:
+        """Rows of ``facets`` that are halved in this round: the other missing sides."""
+        return self.missing[~np.isin(self.facets[self.missing], self.corners).any(axis=1)]
 
 
 def conform_stages(shape: Shape, to: str = "gabriel", limit: int | None = None) -> Iterator[Stage]:
@@ -178,17 +182,16 @@ def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
         missing = rows < 0
         if to == "gabriel":
             missing[~missing] = ~gabriel_mask(tessellation, closed=True, rows=rows[~missing])
-        corners = acute & set(current[missing].ravel().tolist())
-        yield Stage(array, current, np.flatnonzero(missing), np.array(sorted(corners), dtype=np.int64))
+        corners = sorted(acute & set(current[missing].ravel().tolist()))
+        stage = Stage(array, current, np.flatnonzero(missing), np.array(corners, dtype=np.int64))
+        yield stage
         if not missing.any():
             return
         cuts: dict[int, np.ndarray] = {}
-        for corner in sorted(corners):
+        for corner in corners:
             _cut_corner(corner, array, current, cuts)
-        acute -= corners
-        for k in np.flatnonzero(missing).tolist():
-            if k not in cuts and not corners & set(facets[k]):
-                cuts[k] = array[current[k]].mean(axis=0)[None]
+        acute -= set(corners)
+        cuts |= {k: array[current[k]].mean(axis=0)[None] for k in stage.halved.tolist()}
         _insert(shape, points, facets, cuts)
         if len(points) > limit:
             k = np.flatnonzero(missing)[0]

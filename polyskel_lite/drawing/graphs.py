@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
 from ..errors import InputError
-from .lines import box_of, chains, clip_segments, points_of, ray_segments
+from .lines import box_of, chains, clip_segments, in_box, points_of, ray_segments
 from .planar import draw_lines, draw_samples
 from .style import kind_of
 
@@ -152,7 +152,7 @@ def draw_skeleton(
         vertices = len(edges) == 0
     dots = nodes if vertices else np.empty((0, 2))
     if box is not None and len(dots):
-        dots = dots[((dots >= box[0]) & (dots <= box[1])).all(axis=1)]
+        dots = dots[in_box(dots, box)]
     if len(dots):
         dot = {"marker": look.marker or "o", "markersize": look.markersize or 1.8 * look.linewidth}
         draw_samples(ax, dots, kind=kind, **dot | {k: v for k, v in style.items() if k != "linewidth"})
@@ -163,7 +163,7 @@ def _cut(lines: list[np.ndarray], box) -> list[np.ndarray]:
     """Cut paths to a box; a path that lies inside stays one path."""
     pieces = []
     for line in lines:
-        if ((line >= box[0]) & (line <= box[1])).all():
+        if in_box(line, box).all():
             pieces.append(line)
         else:
             pieces += list(clip_segments(np.stack([line[:-1], line[1:]], axis=1), box))

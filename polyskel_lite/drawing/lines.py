@@ -52,6 +52,17 @@ def points_of(thing):
     return thing
 
 
+def in_box(points: np.ndarray, box) -> np.ndarray:
+    """Which points lie in a closed box, (n,) bool array.
+
+    Examples
+    --------
+    >>> in_box(np.array([(0, 0), (3, 1)]), [(0, 0), (2, 2)]).tolist()
+    [True, False]
+    """
+    return ((points >= box[0]) & (points <= box[1])).all(axis=1)
+
+
 def clip_segments(segments, box) -> np.ndarray:
     """Cut segments to a box (the method of Liang and Barsky); those wholly outside are left out.
 

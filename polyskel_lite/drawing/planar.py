@@ -69,7 +69,8 @@ def draw_samples(ax: Axes, points, kind: str = "samples", **style) -> Axes:
     Parameters
     ----------
     ax : Axes
-    points : (n, 2) array, or an object that has ``points``
+        Of the plane, or three-dimensional.
+    points : (n, 2) or (n, 3) array, or an object that has ``points``
 
     Examples
     --------
@@ -82,7 +83,7 @@ def draw_samples(ax: Axes, points, kind: str = "samples", **style) -> Axes:
     >>> plt.close(fig)
     """
     look = kind_of(kind)
-    points = np.asarray(points_of(points), dtype=float).reshape(-1, 2)
+    points = np.asarray(points_of(points), dtype=float).reshape(-1, 3 if ax.name == "3d" else 2)
     options = {
         "color": look.color,
         "linestyle": "none",
@@ -91,7 +92,7 @@ def draw_samples(ax: Axes, points, kind: str = "samples", **style) -> Axes:
         "markeredgewidth": 0,
         "zorder": look.zorder,
     }
-    ax.plot(points[:, 0], points[:, 1], **options | style)
+    ax.plot(*points.T, **options | style)
     return ax
 
 

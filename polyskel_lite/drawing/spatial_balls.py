@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from ..errors import InputError
+from .light import normals_of, view_direction
 from .spatial import draw_samples_3d
-from .spatial_skeletons import draw_glass, view_direction
+from .spatial_skeletons import draw_glass
 
 
 def draw_polyball_3d(
@@ -87,9 +88,7 @@ def _draw_circles(ax: Axes, vertices, triangles, ball, color: str) -> None:
     """The edges between patches of different balls: pale where the surface there faces away."""
     edges, owner = _edges_by_side(triangles)
     rim = ball[owner[0]] != ball[owner[1]]
-    corners = vertices[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    away = normals @ view_direction(ax) <= 0
+    away = normals_of(vertices[triangles]) @ view_direction(ax) <= 0
     behind = away[owner[0]] & away[owner[1]]
     for chosen, zorder, style in (
         (rim & behind, 1.5, {"colors": color, "alpha": 0.35}),

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from .lines import box_of, clip_segments, ray_segments
+from .lines import box_of, clip_segments, in_box, ray_segments
 from .spatial import draw_facets_3d, draw_lines_3d
+
+#: Corners of the facet opposite each corner of a tetrahedron.
+OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 
 
 def draw_tessellation_3d(
@@ -44,9 +47,7 @@ def draw_tessellation_3d(
     centroids = corners.mean(axis=1, keepdims=True)
     middle = np.asarray(tessellation.points).mean(axis=0)
     moved = centroids + spread * (centroids - middle) + shrink * (corners - centroids)
-    index = 4 * np.arange(len(corners))[:, None, None] + np.array(
-        [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)]
-    )
+    index = 4 * np.arange(len(corners))[:, None, None] + np.array(OPPOSITE)
     return draw_facets_3d(ax, moved.reshape(-1, 3), index.reshape(-1, 3), kind="delaunay", alpha=alpha)
 
 
@@ -79,7 +80,7 @@ def draw_voronoi_3d(ax: Axes, voronoi, box=None, polygons=False, alpha: float = 
     nodes = np.asarray(voronoi.vertices, dtype=float)
     chosen = range(len(voronoi.polygons)) if polygons is True else (polygons or ())
     seen = [voronoi.polygons[k] for k in chosen]
-    seen = [p for p in seen if ((nodes[p] >= box[0]) & (nodes[p] <= box[1])).all()]
+    seen = [p for p in seen if in_box(nodes[p], box).all()]
     draw_facets_3d(ax, nodes, seen, kind="voronoi", alpha=alpha, edges=False)
     segments = clip_segments(nodes[np.asarray(voronoi.edges, dtype=int).reshape(-1, 2)], box)
     return draw_lines_3d(ax, np.concatenate([segments, ray_segments(voronoi, box)]), "voronoi", **style)

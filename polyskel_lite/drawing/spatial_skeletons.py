@@ -14,32 +14,14 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from ..errors import InputError
 from ..skeletons import free_edges
-from .lines import box_of
-from .spatial import LIGHT, focus_3d
+from .light import normals_of, shades, unit, view_direction
+from .lines import box_of, in_box
 from .style import kind_of
+from .view import focus_3d
 
 #: Colours for numbers along a skeleton: viridis, without the yellow end that a white page swallows. It is
 #: made for readers with any kind of colour vision, and turns into a grey scale in print.
 RAMP = ListedColormap(plt.get_cmap("viridis")(np.linspace(0, 0.88, 256)), name="ramp")
-
-
-def view_direction(ax: Axes) -> np.ndarray:
-    """Unit vector from the middle of a 3D axes to its camera.
-
-    Examples
-    --------
-    >>> import matplotlib.pyplot as plt
-    >>> from polyskel_lite import drawing
-    >>> fig, ax = drawing.axes_3d()
-    >>> ax.view_init(elev=90, azim=0)
-    >>> drawing.view_direction(ax).round(9).tolist()
-    [0.0, 0.0, 1.0]
-    >>> plt.close(fig)
-    """
-    elev, azim = np.radians([ax.elev, ax.azim])
-    direction = [np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)]
-    # The vertical axis of matplotlib's 3D axes can be x (0), y (1) or z (2); the others follow in a cycle.
-    return np.roll(direction, ax._vertical_axis - 2)
 
 
 def draw_glass(ax: Axes, mesh, alpha: float = 0.10, color: str = "#6E7B85") -> Axes:
@@ -73,9 +55,7 @@ def draw_glass(ax: Axes, mesh, alpha: float = 0.10, color: str = "#6E7B85") -> A
     else:
         points, facets = np.asarray(mesh.points, dtype=float), np.asarray(mesh.facets)
     corners = points[facets]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True).clip(np.finfo(float).tiny)
-    towards = normals @ view_direction(ax)
+    towards = unit(normals_of(corners)) @ view_direction(ax)
     rim = (1 - np.abs(towards)) ** 3
     rgba = np.column_stack([np.tile(to_rgb(color), (len(corners), 1)), alpha * (1 + 2 * rim)])
     for layer, zorder in ((towards <= 0, 1.0), (towards > 0, 7.0)):
@@ -138,11 +118,13 @@ def draw_skeleton_3d(
         box = box_of(skeleton.tessellation, margin=0.02)
     seen = np.isfinite(nodes).all(axis=1)
     if box is not None:
-        seen &= ((nodes >= box[0]) & (nodes <= box[1])).all(axis=1)
+        seen &= in_box(nodes, box)
     color = _color_of(values, limits, look.color)
     cells = [p for p in skeleton.polygons if seen[p].all()]
     if cells:
-        tint = np.array([color(p) for p in cells]) * _shades(nodes, cells)[:, None]
+        # Newell's normal: that of the mean plane, safe for repeated vertices (cospherical samples).
+        normals = np.array([np.cross(nodes[p], nodes[np.roll(p, -1)]).sum(axis=0) for p in cells])
+        tint = np.array([color(p) for p in cells]) * shades(normals, 0.62)
         flat = {"facecolors": tint, "edgecolors": tint * 0.75, "linewidths": 0.25, "zorder": look.zorder}
         # All of one length, by repeating the last corner: matplotlib fills others up with memory that it
         # has not set, and may warn of overflow there.
@@ -196,11 +178,3 @@ def _color_of(values, limits, plain: str):
     low, high = (values.min(), values.max()) if limits is None else limits
     scale = Normalize(low, high, clip=True)
     return lambda vertices: np.array(RAMP(scale(values[vertices].mean()))[:3])
-
-
-def _shades(nodes: np.ndarray, cells) -> np.ndarray:
-    """How bright each polygon is, both sides alike: 0.62 to 1."""
-    # Newell's normal: that of the mean plane, safe for polygons with repeated vertices (cospherical samples).
-    normals = np.array([np.cross(nodes[p], nodes[np.roll(p, -1)]).sum(axis=0) for p in cells])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True).clip(np.finfo(float).tiny)
-    return 0.62 + 0.38 * np.abs(normals @ (LIGHT / np.linalg.norm(LIGHT)))

@@ -1,4 +1,4 @@
-"""What part of the plane or of space is seen: boxes, clipping, zoom; and edges chained into long lines.
+"""What part of the plane or of space is seen: panels side by side, the camera, limits, magnifying glasses.
 
 A few Voronoi vertices of any boundary sampling lie thousands of times farther away than the samples, and rays
 have no end at all. Pictures are therefore framed by the samples, and everything is cut to that frame before
@@ -7,9 +7,120 @@ it is drawn: a renderer that dashes a line from here to 10⁹ is slow at best.
 
 from __future__ import annotations
 
+import string
+
+import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from .lines import box_of
+from .style import TEXT_WIDTH
+
+#: Where the camera of every 3D picture stands: elevation and azimuth, in degrees.
+VIEW = {"elev": 22.0, "azim": -52.0}
+
+
+def axes_3d(
+    ncols: int = 1,
+    nrows: int = 1,
+    height: float | None = None,
+    width: float = TEXT_WIDTH,
+    letters: bool = False,
+) -> tuple[Figure, Axes | np.ndarray]:
+    """Make a figure with one or more empty 3D axes: equal scales, no frame, the camera at `VIEW`.
+
+    Parameters and returns are those of `polyskel_lite.drawing.axes`.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, axs = drawing.axes_3d(3, letters=True)
+    >>> [ax.name for ax in axs]
+    ['3d', '3d', '3d']
+    >>> plt.close(fig)
+    """
+    height = 0.95 * width / ncols * nrows if height is None else height
+    fig, axs = panels([3] * (nrows * ncols), nrows, height, width)
+    for letter, ax in zip(string.ascii_lowercase if letters else "", axs, strict=False):
+        ax.text2D(0.02, 0.98, f"({letter})", transform=ax.transAxes, va="top")
+    return fig, axs if axs.size > 1 else axs[0]
+
+
+def panels(
+    dimensions, nrows: int, height: float, width: float = TEXT_WIDTH, lift: float = 0.0, **view
+) -> tuple[Figure, np.ndarray]:
+    """Make a figure with empty axes side by side, each flat or in space as asked for: equal scales, no frame.
+
+    Parameters
+    ----------
+    dimensions : sequence of 2 and 3
+        Of the axes, in reading order.
+    nrows : int
+    height, width : float
+        Of the whole figure, in inches.
+    lift : float
+        Room under every row, as a share of the figure's height.
+    **view
+        Where the cameras stand, if not at `VIEW`.
+
+    Returns
+    -------
+    fig : Figure
+    axs : flat array of Axes
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, axs = drawing.panels([2, 3], nrows=1, height=2, elev=33)
+    >>> [ax.name for ax in axs], axs[1].elev
+    (['rectilinear', '3d'], 33)
+    >>> plt.close(fig)
+    """
+    # 3D axes ask the layout engine for no room; they are set side by side by hand.
+    fig, ncols = plt.figure(figsize=(width, height), layout="none"), len(dimensions) // nrows
+    axs = np.empty(len(dimensions), dtype=object)
+    for k, dimension in enumerate(dimensions):
+        row, column = divmod(k, ncols)
+        place = (column / ncols, 1 - (row + 1) / nrows + lift, 1 / ncols, 1 / nrows - lift)
+        if dimension == 3:
+            axs[k] = fig.add_axes(place, projection="3d", computed_zorder=False)
+            axs[k].view_init(**VIEW | view)
+        else:
+            axs[k] = fig.add_axes(place, aspect="equal")
+        axs[k].set_axis_off()
+    return fig, axs
+
+
+def focus_3d(ax: Axes, *things, margin: float = 0.0, zoom: float = 1.25) -> Axes:
+    """Set the limits of a 3D axes to some points, with equal scales along the three axes.
+
+    Parameters
+    ----------
+    ax : Axes
+        Three-dimensional.
+    *things
+        As in `polyskel_lite.drawing.box_of`.
+    zoom : float
+        More fills the panel more.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, ax = drawing.axes_3d()
+    >>> ax = drawing.focus_3d(ax, [(0, 0, 0), (1, 2, 3)])
+    >>> [float(z) for z in ax.get_zlim()]
+    [0.0, 3.0]
+    >>> plt.close(fig)
+    """
+    low, high = box_of(*things, margin=margin)
+    for name, a, b in zip("xyz", low, high, strict=True):
+        getattr(ax, f"set_{name}lim")(a, b)
+    ax.set_box_aspect(high - low, zoom=zoom)
+    return ax
 
 
 def focus(ax: Axes, *things, margin: float = 0.05) -> Axes:

@@ -20,7 +20,13 @@ from .rational import (
     normal_of,
     rational_circumcenter,
 )
-from .segments import distance_to_segments, first_meeting, locate, point_segment_distance
+from .segments import (
+    distance_to_segments,
+    first_meeting,
+    locate,
+    nearest_on_segments,
+    point_segment_distance,
+)
 from .topology import betti_numbers, components, euler_characteristic, occurrences
 from .triangles import (
     distance_to_triangles,

@@ -161,8 +161,18 @@ def point_segment_distance(queries: np.ndarray, segments: np.ndarray) -> np.ndar
     >>> float(point_segment_distance(np.array([1.0, 2.0]), np.array([[0.0, 0.0], [4.0, 0.0]])))
     2.0
     """
+    return np.sqrt(((queries - nearest_on_segments(queries, segments)) ** 2).sum(axis=-1))
+
+
+def nearest_on_segments(queries: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """The point of a segment that is nearest to a query, row by row (arrays are broadcast).
+
+    Examples
+    --------
+    >>> nearest_on_segments(np.array([1.0, 2.0]), np.array([[0.0, 0.0], [4.0, 0.0]])).tolist()
+    [1.0, 0.0]
+    """
     a, direction = segments[..., 0, :], segments[..., 1, :] - segments[..., 0, :]
     length2 = (direction**2).sum(axis=-1)
     t = ((queries - a) * direction).sum(axis=-1) / np.where(length2 > 0, length2, 1)
-    foot = a + np.clip(t, 0, 1)[..., None] * direction
-    return np.linalg.norm(queries - foot, axis=-1)
+    return a + np.clip(t, 0, 1)[..., None] * direction

@@ -14,28 +14,20 @@ True
 
 from importlib import import_module
 
-# The room of each name; it is imported when the first of its names is asked for.
-_ROOMS = {
-    "Board": "drawing_board",
-    "SkeletonViewer": "skeleton_viewer",
-    "viewer": "skeleton_viewer",
-} | dict.fromkeys(
-    (
-        *("Explorer", "balls", "explore", "four_methods", "graphs", "maximal_ball", "refinement", "removals"),
-        *("sampling", "thresholds"),
-    ),
-    "explorers",
-)
+_EXPLORERS = "Explorer balls explore four_methods graphs maximal_ball refinement removals sampling thresholds"
+# A room is imported when the first of its names is asked for.
+_ROOMS = {"drawing_board": "Board", "explorers": _EXPLORERS, "skeleton_viewer": "SkeletonViewer viewer"}
+_ROOM_OF = {name: room for room, names in _ROOMS.items() for name in names.split()}
 _NEEDED = ("anywidget", "ipywidgets", "traitlets")
 
-__all__ = sorted(_ROOMS)
+__all__ = sorted(_ROOM_OF)
 
 
 def __getattr__(name):
-    if name not in _ROOMS:
+    if name not in _ROOM_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
-        return getattr(import_module(f".{_ROOMS[name]}", __name__), name)
+        return getattr(import_module(f".{_ROOM_OF[name]}", __name__), name)
     except ModuleNotFoundError as error:
         if error.name not in _NEEDED:
             raise
@@ -46,4 +38,4 @@ def __getattr__(name):
 
 
 def __dir__():
-    return sorted({*globals(), *_ROOMS})
+    return sorted({*globals(), *__all__})

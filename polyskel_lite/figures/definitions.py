@@ -54,8 +54,7 @@ def figure_1(shape=None, n: int = 400, balls: int = 7) -> Figure:
     drawing.draw_skeleton(ax, skeleton, linewidth=0.9)
     chosen = _disjoint(skeleton.vertices, skeleton.radii, balls)
     for k in chosen:
-        contacts = skeleton.tessellation.points[skeleton.tessellation.simplices[skeleton.simplices[k]]]
-        drawing.draw_ball(ax, skeleton.vertices[k], skeleton.radii[k], contacts)
+        drawing.draw_ball(ax, skeleton.vertices[k], skeleton.radii[k], skeleton.contacts(k))
     center, radius, contact = _smaller_ball(skeleton, chosen[0])
     other = {"edgecolor": "#000000", "facecolor": "#FFFFFF", "linestyle": (0, (3, 1.5)), "zorder": 1.8}
     drawing.draw_ball(ax, center, radius, [contact], **other)
@@ -78,8 +77,7 @@ def _disjoint(centers: np.ndarray, radii: np.ndarray, count: int) -> list[int]:
 
 def _smaller_ball(skeleton, k: int, share: float = 0.42):
     """A ball inside ball `k` that touches it, and the boundary, at one of its contact points."""
-    contacts = skeleton.tessellation.points[skeleton.tessellation.simplices[skeleton.simplices[k]]]
-    center, radius = skeleton.vertices[k], skeleton.radii[k]
+    center, radius, contacts = skeleton.vertices[k], skeleton.radii[k], skeleton.contacts(k)
     # The contact nearest to a diagonal leaves the small ball clear of the spokes of the large one.
     contact = contacts[np.argmax(np.abs(np.sin(2 * np.arctan2(*(contacts - center).T))))]
     return contact + share * (center - contact), share * radius, contact

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -48,25 +47,6 @@ def examples_6() -> list[tuple[DelaunayShape, int]]:
     ]
 
 
-def _mixed_axes(dimensions, rows: int, height: float, lift: float = 0.0) -> tuple[Figure, list[Axes]]:
-    """A grid of panels in reading order, flat or in space as asked for."""
-    columns = len(dimensions) // rows
-    fig = plt.figure(figsize=(drawing.TEXT_WIDTH, height), layout="none")
-    axs = []
-    for k, dimension in enumerate(dimensions):
-        row, column = divmod(k, columns)
-        place = (column / columns, 1 - (row + 1) / rows + lift, 1 / columns, 1 / rows - lift)
-        if dimension == 3:
-            ax = fig.add_axes(place, projection="3d", computed_zorder=False)
-            ax.view_init(**drawing.VIEW | {"elev": 33})
-        else:
-            ax = fig.add_axes(place)
-            ax.set_aspect("equal")
-        ax.set_axis_off()
-        axs.append(ax)
-    return fig, axs
-
-
 def _letter(ax: Axes, k: int, place: tuple[float, float], words: str = "") -> None:
     """Write (a), (b) ... and some words at a place of the figure."""
     write = ax.text2D if ax.name == "3d" else ax.text
@@ -99,7 +79,7 @@ def figure_6(examples=None) -> Figure:
     if len(examples) != 6:
         raise InputError(f"Figure 6 has six panels; got {len(examples)} examples.")
     words = ("hat triangle", "hat tetrahedron", "salient tetrahedron", "cuts", "cuts", "opens a tunnel")
-    fig, axs = _mixed_axes([P.dimension for P, _ in examples], 2, 4.4, lift=0.01)
+    fig, axs = drawing.panels([P.dimension for P, _ in examples], 2, 4.4, lift=0.01, elev=33)
     for k, (ax, (P, this)) in enumerate(zip(axs, examples, strict=True)):
         if P.dimension == 2:
             _classified_triangle(ax, P, this)
@@ -118,11 +98,9 @@ def _classified_triangle(ax: Axes, P: DelaunayShape, this: int) -> None:
     for row in np.flatnonzero(P.inner):
         fill = THIS if row == this else REST
         drawing.draw_shape(ax, [corners[row]], facecolor=fill, linewidth=0.6)
-    for i in range(3):
-        neighbor = t.neighbors[this, i]
-        if neighbor >= 0 and P.inner[neighbor]:
-            side = np.delete(corners[this], i, axis=0)
-            drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
+    for i in np.flatnonzero(np.append(P.inner, False)[t.neighbors[this]]):
+        side = np.delete(corners[this], i, axis=0)
+        drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
     drawing.focus(ax, corners[P.inner].reshape(-1, 2), margin=0.06)
 
 
@@ -165,7 +143,7 @@ def figure_7(examples=None) -> Figure:
     >>> plt.close(figures.figure_7())
     """
     examples = examples_7() if examples is None else examples
-    fig, axs = _mixed_axes([P.dimension for P, _ in examples] * 2, 2, 4.2)
+    fig, axs = drawing.panels([P.dimension for P, _ in examples] * 2, 2, 4.2, elev=33)
     for k, (P, this) in enumerate(examples):
         without = P.inner.copy()
         without[this] = False

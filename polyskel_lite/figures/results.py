@@ -72,10 +72,7 @@ def _column(axs, P: DelaunayShape) -> int:
     points, facets = P.tessellation.points, P.boundary()
     drawing.draw_facets_3d(axs[0], points, facets, color="#CDD3D8", linewidths=0.12)
     # Samples on the far side would show through: only those with a face towards the camera.
-    normals = np.cross(
-        points[facets[:, 1]] - points[facets[:, 0]], points[facets[:, 2]] - points[facets[:, 0]]
-    )
-    near = np.unique(facets[normals @ drawing.view_direction(axs[1]) > 0])
+    near = np.unique(facets[drawing.normals_of(points[facets]) @ drawing.view_direction(axs[1]) > 0])
     drawing.draw_samples_3d(axs[1], points[near], markersize=0.9)
     whole = sk0(P)
     surface = hierarchy(P, "surface").skeleton(np.pi / 3)

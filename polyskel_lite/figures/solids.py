@@ -9,12 +9,9 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .. import drawing
 from ..containment import DelaunayShape
-from ..drawing import LIGHT
 from ..graphs import delaunay
 from ..skeletons import sk0
 
-#: Corners of the facet opposite each corner of a tetrahedron.
-OPPOSITE = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
 #: Look of the simplex a picture is about, of the facets it shares with the shape, and of the rest.
 THIS, SHARED, REST = "#8CCBF0", "#F0B48C", "#E2E2E2"
 
@@ -100,8 +97,7 @@ def helix(tetrahedra: int) -> DelaunayShape:
     k = np.arange(tetrahedra + 3)
     turn, radius = np.arccos(-2 / 3), 0.3 * np.sqrt(3)
     points = np.column_stack([k / np.sqrt(10), radius * np.cos(k * turn), radius * np.sin(k * turn)])
-    P = region(points, [tuple(range(j, j + 4)) for j in range(tetrahedra)])
-    return P
+    return region(points, [tuple(range(j, j + 4)) for j in range(tetrahedra)])
 
 
 def star(corners, missing) -> DelaunayShape:
@@ -147,10 +143,8 @@ def paint(ax: Axes, triangles, colors, alpha=1.0, edgecolor="#4D4D4D", linewidth
     >>> plt.close(fig)
     """
     triangles = np.asarray(triangles, dtype=float)
-    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True).clip(np.finfo(float).tiny)
-    shade = 0.72 + 0.28 * np.abs(normals @ (LIGHT / np.linalg.norm(LIGHT)))
-    rgb = np.array([to_rgb(color) for color in colors]) * shade[:, None]
+    shade = drawing.shades(drawing.normals_of(triangles), 0.72)
+    rgb = np.array([to_rgb(color) for color in colors]) * shade
     faces = np.column_stack([rgb, np.broadcast_to(alpha, len(rgb))])
     options = {"facecolors": faces, "edgecolors": edgecolor, "linewidths": linewidth} | style
     ax.add_collection3d(Poly3DCollection(triangles, **options))
@@ -190,7 +184,7 @@ def draw_apart(
     corners = t.points[t.simplices[rows]]
     centroids = corners.mean(axis=1, keepdims=True)
     corners = centroids + shrink * (corners - centroids) + spread * (centroids - centroids.mean(axis=0))
-    triangles = corners[:, OPPOSITE]
+    triangles = corners[:, drawing.OPPOSITE]
     beyond = np.where(np.append(P.inner, False)[t.neighbors[rows]], t.neighbors[rows], -1)
     shared = (beyond >= 0) & ((beyond == this) | (rows == this)[:, None])
     colors = np.where(shared, SHARED, np.where(rows == this, THIS, REST)[:, None])
@@ -227,9 +221,7 @@ def draw_solid(ax: Axes, P: DelaunayShape, alpha: float = 0.3, skeleton: bool = 
     """
     points = P.tessellation.points
     triangles = points[P.boundary()]
-    elev, azim = np.radians([ax.elev, ax.azim])
-    camera = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
-    front = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) @ camera > 0
+    front = drawing.normals_of(triangles) @ drawing.view_direction(ax) > 0
     color = drawing.KINDS["delaunay"].fill
     for seen, opacity, order in ((~front, 0.75, 1), (front, alpha, 6)):
         if seen.any():

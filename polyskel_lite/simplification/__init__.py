@@ -5,6 +5,6 @@ removal at a time with the state before and after it, and A(v); how branches ret
 """
 
 from .criteria import face_angles, facet_measures
-from .hierarchies import Hierarchy, hierarchy
+from .hierarchies import STRATEGIES, Hierarchy, hierarchy
 from .removals import Removal, simplices_by_type, state_at, try_removal
 from .retreat import Ways, behind, end_vertices, paths_back, ways

@@ -18,7 +18,8 @@ from .criteria import face_angles, facet_measures
 if TYPE_CHECKING:
     import networkx
 
-_STRATEGIES = {"branch": (2,), "surface": (3,), "wireframe": (3,)}
+#: The strategies there are, by dimension; the first one is the default.
+STRATEGIES = {2: ("branch",), 3: ("surface", "wireframe")}
 _CRITERIA = ("corrected", "as printed")
 
 
@@ -177,14 +178,13 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
     """
     if not isinstance(P, DelaunayShape):
         P = delaunay_shape(P)
-    if strategy is None:
-        strategy = "branch" if P.dimension == 2 else "surface"
-    if strategy not in _STRATEGIES:
-        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(_STRATEGIES)}.")
+    fitting, known = STRATEGIES[P.dimension], sum(STRATEGIES.values(), ())
+    strategy = fitting[0] if strategy is None else strategy
+    if strategy not in known:
+        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(known)}.")
     if criterion not in _CRITERIA:
         raise InputError(f"unknown criterion {criterion!r}; choose one of {', '.join(_CRITERIA)}.")
-    if P.dimension not in _STRATEGIES[strategy]:
-        fitting = [name for name, dimensions in _STRATEGIES.items() if P.dimension in dimensions]
+    if strategy not in fitting:
         raise InputError(
             f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."
         )

@@ -94,9 +94,7 @@ def end_vertices(h: Hierarchy, threshold: float) -> np.ndarray:
     >>> len(end_vertices(h, np.pi)) == h.branches(np.pi).graph["branches"]
     True
     """
-    kept = np.flatnonzero(h.level >= threshold)
-    degree = np.bincount(h.skeleton(threshold).edges.ravel(), minlength=len(kept))
-    return kept[degree == 1]
+    return np.flatnonzero(h.level >= threshold)[h.skeleton(threshold).ends()]
 
 
 def paths_back(h: Hierarchy, threshold: float, found: Ways | None = None) -> list[np.ndarray]:

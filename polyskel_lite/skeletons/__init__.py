@@ -2,12 +2,13 @@
 
 In the room: `Skeleton`, an abstract cell complex with balls around its vertices; the Voronoi graph and the
 dual of any Delaunay simplices; what of it is inside a shape, exactly; branches as a graph and as a table;
-Hausdorff distances.
+Hausdorff distances. Apart from samples: the maximal balls of a polygon itself.
 """
 
 from .branch_tables import Branch, branch_csv, branch_rows
 from .branches import branch_graph, free_edges
 from .distances import directed_hausdorff, hausdorff
 from .four_methods import sk0, sk1, sk2, sk3
+from .maximal_balls import contact_points, grown_ball
 from .skeleton import Skeleton
 from .voronoi_graph import dual_complex, voronoi

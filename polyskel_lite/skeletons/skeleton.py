@@ -113,6 +113,28 @@ class Skeleton:
         """
         return float(self.lengths().sum())
 
+    def ends(self) -> np.ndarray:
+        """The vertices with exactly one edge, in increasing order.
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).ends().tolist()
+        [0, 1]
+        """
+        return np.flatnonzero(np.bincount(self.edges.ravel()) == 1)
+
+    def contacts(self, vertex: int) -> np.ndarray:
+        """The samples on the ball of a vertex that is dual to a simplex: its corners, (N + 1, N).
+
+        Examples
+        --------
+        >>> import polyskel_lite as psl
+        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).contacts(0).tolist()
+        [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]
+        """
+        return self.tessellation.points[self.tessellation.simplices[self.simplices[vertex]]]
+
     def betti(self) -> tuple[int, ...]:
         """Betti numbers (b0, b1) in 2D, (b0, b1, b2) in 3D, of the abstract complex.
 

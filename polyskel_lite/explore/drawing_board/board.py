@@ -86,13 +86,7 @@ class Board(anywidget.AnyWidget):
         self.layers: dict[str, Layer] = {}
         self._seen: dict[str, bool] = {}
         self._plane = View(box, width)
-        xmin, ymin, xmax, ymax = self._plane.box
-        super().__init__(
-            alt=alt,
-            handle_labels=list(handle_labels),
-            step=(xmax - xmin + ymax - ymin) / 400,
-            _view={"box": list(self._plane.box), "size": list(self._plane.size)},
-        )
+        super().__init__(alt=alt, handle_labels=list(handle_labels), **self._frame())
         self.handles = () if handles is None else handles
         self.on_msg(self._receive)
         for layer in layers:
@@ -106,13 +100,18 @@ class Board(anywidget.AnyWidget):
     @box.setter
     def box(self, box) -> None:
         self._plane = View(box, self._plane.size[0] // PIXEL)
-        xmin, ymin, xmax, ymax = self._plane.box
         with self.hold_sync():
-            self.step = (xmax - xmin + ymax - ymin) / 400
-            self._view = {"box": list(self._plane.box), "size": list(self._plane.size)}
+            for name, value in self._frame().items():
+                setattr(self, name, value)
             self.handles = self.handles
             for name in self.layers:
                 self._show(name)
+
+    def _frame(self) -> dict[str, object]:
+        """The traits that follow from the part of the plane shown."""
+        xmin, ymin, xmax, ymax = box = self._plane.box
+        step = (xmax - xmin + ymax - ymin) / 400
+        return {"step": step, "_view": {"box": list(box), "size": list(self._plane.size)}}
 
     def draw(self, name: str, kind: str, visible: bool = True, **contents) -> None:
         """Draw a layer, or draw it anew.

@@ -15,10 +15,10 @@ import numpy as np
 from ...containment import conform, delaunay_shape
 from ...errors import InputError, PolyskelError
 from ...shapes import Shape
-from ...simplification import Hierarchy, hierarchy
+from ...simplification import STRATEGIES, Hierarchy, hierarchy
 from ...skeletons import branch_rows
 from ..skeleton_viewer import SkeletonViewer, viewer
-from .explorer import NEEDS_KERNEL
+from .explorer import NEEDS_KERNEL, WithStandIn
 from .results import branch_table, result_files
 
 #: What the file button offers; a path may have any suffix that `Shape.from_file` reads.
@@ -102,8 +102,8 @@ def chain(source: Shape | str | PathLike, **options) -> Chain:
         )
     refined = conform(shape)
     P = delaunay_shape(refined)
-    strategies = ("branch",) if shape.dimension == 2 else ("surface", "wireframe")
-    return Chain(name, shape, refined, tuple(hierarchy(P, strategy) for strategy in strategies))
+    found = tuple(hierarchy(P, strategy) for strategy in STRATEGIES[shape.dimension])
+    return Chain(name, shape, refined, found)
 
 
 def chain_text(way: Chain) -> str:
@@ -126,7 +126,7 @@ def chain_text(way: Chain) -> str:
     return f"{way.name}: {len(given.points)} vertices, Betti numbers {given.betti()}. {refined}"
 
 
-class Explore(ipywidgets.VBox):
+class Explore(WithStandIn):
     """The widget that `explore` returns.
 
     Attributes
@@ -138,6 +138,8 @@ class Explore(ipywidgets.VBox):
     picture : SkeletonViewer or None
         Its ``threshold`` and ``strategy`` are those of table and files.
     """
+
+    look_for = LOOK_FOR
 
     def __init__(self, source: Shape | str | PathLike | None = None, **options):
         self.chain: Chain | None = None
@@ -168,18 +170,12 @@ class Explore(ipywidgets.VBox):
             option.observe(lambda _: self._again(), "value")
         self.make.on_click(lambda _: self._offer())
         self.write.on_click(lambda _: self._write())
+        hint = ipywidgets.HTML(f"<p>{html.escape(LOOK_FOR)}</p><p>{html.escape(_LIMITS)}</p>")
         row = {"flex_flow": "row wrap"}
-        super().__init__(
-            [
-                ipywidgets.HTML(f"<p>{html.escape(LOOK_FOR)}</p><p>{html.escape(_LIMITS)}</p>"),
-                ipywidgets.HBox([self.upload, self.smooth, self.invert, self.turn], layout=row),
-                self._status,
-                self._place,
-            ]
-        )
-        self._results = ipywidgets.VBox(
-            [ipywidgets.HBox([self.make, self.write], layout=row), self._links, self._table]
-        )
+        files = ipywidgets.HBox([self.upload, self.smooth, self.invert, self.turn], layout=row)
+        buttons = ipywidgets.HBox([self.make, self.write], layout=row)
+        super().__init__([hint, files, self._status, self._place])
+        self._results = ipywidgets.VBox([buttons, self._links, self._table])
         if source is not None:
             self.load(source, **options)
 
@@ -196,13 +192,11 @@ class Explore(ipywidgets.VBox):
         self.chain, self.error, self.picture = None, None, None
         self._links.value = ""
         try:
-            self.chain = chain(source, **options)
+            way = self.chain = chain(source, **options)
         except PolyskelError as error:
-            self.error = error
+            self.error, self._place.children = error, ()
             self._say(str(error), alert=True)
-            self._place.children = ()
             return
-        way = self.chain
         self._say(chain_text(way))
         self.picture = viewer(
             list(way.hierarchies),
@@ -240,20 +234,15 @@ class Explore(ipywidgets.VBox):
         -------
         list of Path
         """
-        paths = []
-        for name, content in self.files().items():
-            paths.append(Path(folder) / name)
-            paths[-1].write_bytes(content)
-        return paths
+        files = {Path(folder) / name: content for name, content in self.files().items()}
+        for path, content in files.items():
+            path.write_bytes(content)
+        return list(files)
 
     def stand_in(self) -> str:
         """HTML of the picture, the sentences and the table for a page without a kernel."""
         results = self.picture.to_html() + self._table.value if self.picture else ""
         return f"<p>{html.escape(LOOK_FOR)}</p>{self._status.value}{results}<p><em>{NEEDS_KERNEL}</em></p>"
-
-    def _repr_mimebundle_(self, **kwargs):
-        bundle = super()._repr_mimebundle_(**kwargs)
-        return bundle | {"text/plain": f"Explore: {LOOK_FOR}", "text/html": self.stand_in()}
 
     def _uploaded(self, change) -> None:
         if change["new"]:

@@ -1,4 +1,4 @@
-"""`Explorer`: what all explorers have in common: controls, a board, what to look for, numbers, a stand-in."""
+"""`Explorer`: what all explorers have in common: a shape, controls, a board, what to look for, a stand-in."""
 
 from __future__ import annotations
 
@@ -9,7 +9,11 @@ from contextlib import contextmanager
 import ipywidgets
 import numpy as np
 
-from ...errors import PolyskelError
+from ...containment import DelaunayShape, conform, delaunay_shape
+from ...datasets import load
+from ...drawing import chains
+from ...errors import InputError, PolyskelError
+from ...shapes import Shape, check_shape
 from ..drawing_board import Board
 
 #: What the stored page says where the controls would be.
@@ -19,7 +23,34 @@ NEEDS_KERNEL = (
 )
 
 
-class Explorer(ipywidgets.VBox):
+class WithStandIn(ipywidgets.VBox):
+    """A widget that is also a piece of a page where no kernel runs; a subclass has `look_for` and `stand_in`.
+
+    Examples
+    --------
+    >>> class Word(WithStandIn):
+    ...     look_for = "Read it."
+    ...
+    ...     def stand_in(self):
+    ...         return "<p>word</p>"
+    >>> bundle = Word()._repr_mimebundle_()
+    >>> bundle["text/plain"], bundle["text/html"]
+    ('Word: Read it.', '<p>word</p>')
+    """
+
+    look_for: str
+    stand_in: Callable[[], str]
+
+    def _repr_mimebundle_(self, **kwargs):
+        bundle = super()._repr_mimebundle_(**kwargs)
+        # The usual text lists all traits with their addresses; this one is the same each time.
+        return bundle | {
+            "text/plain": f"{type(self).__name__}: {self.look_for}",
+            "text/html": self.stand_in(),
+        }
+
+
+class Explorer(WithStandIn):
     """Controls over a drawing board, drawn anew whenever one of them changes.
 
     A subclass makes its board and controls, calls ``super().__init__`` with them, and says in `draw` what
@@ -73,8 +104,8 @@ class Explorer(ipywidgets.VBox):
             room = 0.6 * len(control.description)
             control.layout.width = f"{18 + room:.0f}em" if hasattr(control, "max") else "auto"
             control.layout.margin = "2px 16px 2px 0"
-            control.observe(self._changed, "value")
-        board.observe(self._changed, "handles")
+            control.observe(lambda _: self.update(), "value")
+        board.observe(lambda _: self.update(), "handles")
         row = ipywidgets.HBox(list(self.controls.values()), layout={"flex_flow": "row wrap"})
         super().__init__([hint, row, board])
         self.add_class("psl-explorer")  # board.js looks for it
@@ -123,9 +154,12 @@ class Explorer(ipywidgets.VBox):
 
     def tell(self, remark: str = "", /, **numbers) -> None:
         """Set `numbers`, and the line under the board to a remark and the numbers with their names."""
-        self.numbers = numbers
         line = " · ".join(f"{name.replace('_', ' ')} {said(value)}" for name, value in numbers.items())
-        self.board.text = f"{remark} {line}".strip()
+        self.say(f"{remark} {line}".strip(), numbers)
+
+    def say(self, sentence: str, numbers: Mapping[str, object]) -> None:
+        """Set `numbers`, and the line under the board to a sentence that says them."""
+        self.numbers, self.board.text = dict(numbers), sentence
 
     def stand_in(self) -> str:
         """HTML of the picture and the sentences for a page without a kernel.
@@ -142,16 +176,59 @@ class Explorer(ipywidgets.VBox):
             f"<p><em>{NEEDS_KERNEL}</em></p></figcaption></figure>"
         )
 
-    def _changed(self, change) -> None:
-        self.update()
 
-    def _repr_mimebundle_(self, **kwargs):
-        bundle = super()._repr_mimebundle_(**kwargs)
-        # The usual text lists all traits with their addresses; this one is the same each time.
-        return bundle | {
-            "text/plain": f"{type(self).__name__}: {self.look_for}",
-            "text/html": self.stand_in(),
-        }
+def flat_shape(shape: Shape | None, topic: str) -> Shape:
+    """The shape that an explorer is given, by default the horse; refused if it is none of the plane.
+
+    Examples
+    --------
+    >>> flat_shape(load("vertebra"), "samples")
+    Traceback (most recent call last):
+    polyskel_lite.errors.InputError: the explorer of samples is for shapes of the plane; this one is a solid.
+    """
+    shape = load("horse") if shape is None else shape
+    check_shape(shape)
+    if shape.dimension != 2:
+        raise InputError(f"the explorer of {topic} is for shapes of the plane; this one is a solid.")
+    return shape
+
+
+def refined(shape: Shape | DelaunayShape, to: str | None = None) -> DelaunayShape:
+    """A shape as Delaunay simplices, refined first as `polyskel_lite.conform` does; these stay as they are.
+
+    Examples
+    --------
+    >>> P = refined(load("gear", n=60))
+    >>> P.is_gabriel(), refined(P) is P
+    (True, True)
+    """
+    return shape if isinstance(shape, DelaunayShape) else delaunay_shape(conform(shape, to))
+
+
+def outline(points: np.ndarray, edges: np.ndarray) -> list[np.ndarray]:
+    """The rings that the sides of a boundary make, as polygons for `Board.draw`.
+
+    Examples
+    --------
+    >>> [len(ring) for ring in outline(np.eye(3, 2), [(0, 1), (1, 2), (2, 0)])]
+    [4]
+    """
+    return [points[path] for path in chains(edges)]
+
+
+def sample_sliders(shape: Shape, n: int, start: float = 0.0) -> dict[str, ipywidgets.Widget]:
+    """Sliders ``n``, for the number of samples from three a ring on, and ``start``, for their shift.
+
+    Examples
+    --------
+    >>> sample_sliders(load("lake"), 100)["n"].min
+    9
+    """
+    rings = len(shape.rings())
+    return {
+        "n": ipywidgets.IntSlider(n, min=3 * rings, max=max(400, 6 * rings), description="samples n"),
+        "start": ipywidgets.FloatSlider(start, min=0, max=0.95, step=0.05, description="shift, in steps"),
+    }
 
 
 def said(value) -> str:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import ipywidgets
 import numpy as np
 
-from ...datasets import load
-from ...errors import InputError
-from ...shapes import Shape, check_shape
-from ...skeletons import sk1, sk2
+from ...shapes import Shape
+from ...skeletons import contact_points, grown_ball, sk1, sk2
 from ..drawing_board import Board, box_around
-from .explorer import Explorer
+from .explorer import Explorer, flat_shape
 
-#: Distinct contacts are found up to this share of the radius, and a centre counts as on the skeleton when
-#: it is nearer to it than this share of the picture's width (three pixels).
-TOUCH, SNAP = 1e-6, 3 / 640
+#: A centre counts as on the skeleton when it is nearer to it than this share of the picture's width (three
+#: pixels).
+SNAP = 3 / 640
 #: A centre that is nearer to the boundary than this share of the width is on it.
 EDGE = 1e-6
 
@@ -23,10 +21,7 @@ class MaximalBall(Explorer):
     """See `maximal_ball`."""
 
     def __init__(self, shape: Shape | None = None, center=None):
-        self.shape = load("horse") if shape is None else shape
-        check_shape(self.shape)
-        if self.shape.dimension != 2:
-            raise InputError("the explorer of maximal balls is for shapes of the plane; this one is a solid.")
+        self.shape = flat_shape(shape, "maximal balls")
         self._seen: list[np.ndarray] = []
         board = Board(
             box_around(self.shape.points),
@@ -61,7 +56,7 @@ class MaximalBall(Explorer):
             board.alt = "A shape; the chosen centre is not inside it."
             self.tell("No ball: the centre is not inside the shape. Drag it back in.")
             return
-        radius, center, full = grow(shape, start)
+        radius, center, full = grown_ball(shape, start)
         moved = float(np.hypot(*(center - start)))
         if moved <= SNAP * width:
             remark, share = "The centre is on the skeleton: its ball is maximal, it cannot grow.", 1.0
@@ -89,7 +84,7 @@ class MaximalBall(Explorer):
         """Draw the ball, its way and the trace; the number of its contacts."""
         board, ball, contacts, way = self.board, ([], []), (), ()
         if radius is not None:
-            ball, contacts = ([center], [radius]), _contacts(self.shape, center, radius)
+            ball, contacts = ([center], [radius]), contact_points(self.shape, center, radius)
             way = [[board.handles[0], center]]
         board.draw("ball", "balls", circles=ball, label="ball")
         board.draw("contacts", "samples", points=contacts, width=2.5, label="contacts")
@@ -141,76 +136,8 @@ def maximal_ball(shape: Shape | None = None, center=None) -> MaximalBall:
     return MaximalBall(shape, center)
 
 
-def grow(shape: Shape, center) -> tuple[float, np.ndarray, float]:
-    """Radius of the ball around a centre, and centre and radius of the maximal ball with its first contact.
-
-    Parameters
-    ----------
-    shape : Shape
-    center : (x, y)
-        Inside the shape, not on its boundary.
-
-    Returns
-    -------
-    radius : float
-    center : (2,) float array
-    radius of the maximal ball : float
-
-    References
-    ----------
-    The shrinking ball of J. Ma, S. W. Bae, S. Choi, 3D medial axis point approximation using nearest
-    neighbors and the normal field, 2012.
-
-    Examples
-    --------
-    >>> from polyskel_lite import Shape
-    >>> radius, center, full = grow(Shape.from_rings([[(0, 0), (6, 0), (6, 2), (0, 2)]]), (3, 0.5))
-    >>> radius, center.round(6).tolist(), round(full, 6)
-    (0.5, [3.0, 1.0], 1.0)
-    """
-    center = np.asarray(center, dtype=float)
-    feet, distances = _feet(shape, center)
-    first = distances.argmin()
-    radius = float(distances[first])
-    away = (center - feet[first]) / radius
-    # The ball around center + t * away with radius + t keeps its first contact. Shrink it to the nearest
-    # point of the boundary as long as that is inside.
-    t = float(np.ptp(shape.points, axis=0).sum())
-    for _ in range(100):
-        feet, distances = _feet(shape, center + t * away)
-        nearest = distances.argmin()
-        if distances[nearest] >= (radius + t) * (1 - 1e-12):
-            break
-        gap = center - feet[nearest]
-        t = max(0.0, float((gap @ gap - radius**2) / (2 * (radius - gap @ away))))
-    return radius, center + t * away, radius + t
-
-
-def _feet(shape: Shape, center: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The point of each side that is nearest to the centre, and its distance."""
-    a, along = shape.segments[:, 0], shape.segments[:, 1] - shape.segments[:, 0]
-    t = ((center - a) * along).sum(axis=1) / (along**2).sum(axis=1)
-    feet = a + np.clip(t, 0, 1)[:, None] * along
-    return feet, np.hypot(*(feet - center).T)
-
-
-def _contacts(shape: Shape, center: np.ndarray, radius: float) -> np.ndarray:
-    """The points of the boundary that the ball touches, each once."""
-    feet, distances = _feet(shape, center)
-    near = feet[distances <= radius * (1 + TOUCH)]
-    kept: list[np.ndarray] = []
-    for point in near:  # two sides share the corner that they touch the ball with
-        if all(np.hypot(*(point - other)) > 1e-3 * radius for other in kept):
-            kept.append(point)
-    return np.array(kept)
-
-
 def _off_the_skeleton(shape: Shape) -> np.ndarray:
     """Halfway from the centre of the largest ball to one of its contacts."""
-    vertices = sk1(shape)
-    largest = int(vertices.radii.argmax())
-    center, contact = (
-        vertices.vertices[largest],
-        shape.points[vertices.tessellation.simplices[vertices.simplices[largest], 0]],
-    )
-    return (center + contact) / 2
+    found = sk1(shape)
+    largest = found.radii.argmax()
+    return (found.vertices[largest] + found.contacts(largest)[0]) / 2

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import ipywidgets
 import numpy as np
 
 from ...containment import delaunay_shape
-from ...datasets import load
 from ...errors import ContourContainmentError, InputError, PolyskelError, ShapeError
 from ...graphs import delaunay
-from ...shapes import Shape, check_shape
+from ...shapes import Shape
 from ...skeletons import Skeleton, sk0, sk1, sk2, sk3
 from ..drawing_board import Board, box_around
-from .explorer import Explorer
+from .explorer import Explorer, flat_shape, sample_sliders
 
 _NAMES = ("sk1", "sk2", "sk3", "sk0")  # in the order of the sections
 
@@ -21,14 +19,9 @@ class FourMethods(Explorer):
     """See `four_methods`."""
 
     def __init__(self, shape: Shape | None = None, n: int = 96, start: float = 0.7):
-        self.shape = load("horse") if shape is None else shape
-        check_shape(self.shape)
-        if self.shape.dimension != 2:
-            raise InputError(
-                "the explorer of the four methods is for shapes of the plane; this one is a solid."
-            )
-        rings = [self.shape.points[ring] for ring in self.shape.rings()]
-        low, high = 3 * len(rings), max(400, 6 * len(rings))
+        self.shape = flat_shape(shape, "the four methods")
+        controls = sample_sliders(self.shape, n, start)
+        low, high = controls["n"].min, controls["n"].max
         if not (low <= n <= high and 0 <= start < 1):
             raise InputError(
                 f"n = {n}, start = {start}; choose n from {low} to {high} and start from 0 to 0.95."
@@ -40,12 +33,9 @@ class FourMethods(Explorer):
         self.offsets = {name: step * (k % 2, -(k // 2)) for k, name in enumerate(_NAMES)}
         self._heading = left + 0.02 * (right - left), top + 0.35 * room
         board = Board((left, bottom - step[1], right + step[0], top + room), width=760)
+        rings = [self.shape.points[ring] for ring in self.shape.rings()]
         copies = [ring + offset for offset in self.offsets.values() for ring in rings]
         board.draw("shape", "shape", polygons=copies, label="shape X")
-        controls = {
-            "n": ipywidgets.IntSlider(n, min=low, max=high, description="samples n"),
-            "start": ipywidgets.FloatSlider(start, min=0, max=0.95, step=0.05, description="shift, in steps"),
-        }
         super().__init__(
             board,
             controls,
@@ -74,22 +64,17 @@ class FourMethods(Explorer):
         E, betti = found["sk1"].tessellation.points, self.shape.betti()
         everywhere = np.concatenate([E + offset for offset in self.offsets.values()])
         board.draw("samples", "samples", points=everywhere, width=0.7, label="samples E")
-        words, self.numbers = {}, {"shape": betti, "n": len(E)}
-        for name in _NAMES:
-            counts = self.numbers[f"Sk{name[2]}"] = _counts(found[name])
-            words[name] = f"Sk{name[2]}: {self._draw_one(name, found[name], counts)}"
-            heading = (*(self._heading + self.offsets[name]), words[name])
+        counts = {f"Sk{name[2]}": _counts(found[name]) for name in _NAMES}
+        words = []
+        for name, (title, numbers) in zip(_NAMES, counts.items(), strict=True):
+            words.append(f"{title}: {self._draw_one(name, found[name], numbers)}")
+            heading = (*(self._heading + self.offsets[name]), words[-1])
             board.draw(f"heading_{name}", "samples", text=[heading])
         shift = self.offsets["sk0"]
         label = "sides that are not Delaunay" if len(self._missing) else None
         board.draw("missing", "samples", lines=self._missing + shift, width=3, label=label)
-        skeletons = "; ".join(words.values())
-        board.alt = f"Four pictures of a shape with {len(E)} samples and a skeleton: {skeletons}."
-        self.numbers = {f"Sk{name[2]}": _counts(found[name]) for name in _NAMES} | {
-            "shape": betti,
-            "n": len(E),
-        }
-        board.text = f"Shape: Betti {betti}. " + " · ".join(words.values())
+        board.alt = f"Four pictures of a shape with {len(E)} samples and a skeleton: {'; '.join(words)}."
+        self.say(f"Shape: Betti {betti}. " + " · ".join(words), counts | {"shape": betti, "n": len(E)})
 
     def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError, counts: dict | None) -> str:
         """Draw one skeleton in its own picture, and say its numbers."""

@@ -17,7 +17,6 @@ CENTERS = ((0.0, 0.0), (1.3, 0.75), (2.6, 0.0), (2.2, -1.5), (0.6, -1.6), (4.1, 
 RADII = (1.0, 0.85, 1.0, 0.8, 1.0, 0.7, 0.35)
 #: Two handles a ball are enough for that many.
 MOST = 16
-_NONE = np.empty((0, 2, 2))
 
 LOOK_FOR = (
     "Drag a centre, or drag the dot on a rim to make a ball grow. Look for the black singular points, where "
@@ -28,75 +27,6 @@ ALT = (
     "A union of discs with its boundary, the singular points on it as black dots, their Voronoi graph "
     "faintly, and the skeleton of the union as a blue line."
 )
-
-
-def boundary_layers(Y: Polyball, box) -> dict[str, dict]:
-    """The balls, their union, its singular points and their Voronoi graph, for `polyskel_lite.explore.Board`.
-
-    Parameters
-    ----------
-    Y : Polyball
-        In the plane.
-    box : (xmin, ymin, xmax, ymax)
-        Unbounded Voronoi edges are cut there.
-
-    Examples
-    --------
-    >>> layers = boundary_layers(Polyball([(-0.5, 0), (0.5, 0)], [1, 1]), (-2, -2, 2, 2))
-    >>> len(layers["singular"]["points"]), len(layers["boundary"]["arcs"][0]), len(layers["voronoi"]["lines"])
-    (2, 2, 0)
-    """
-    ball, start, end = Y.arcs()
-    singular = Y.singular_points()
-    return {
-        "balls": {"kind": "balls", "circles": (Y.centers, Y.radii), "opacity": 0.9, "stroke": False},
-        "rims": {
-            "kind": "complement",
-            "circles": (Y.centers, Y.radii),
-            "fill": False,
-            "order": 1.6,
-            "label": "circles",
-        },
-        "boundary": {
-            "kind": "balls",
-            "arcs": (Y.centers[ball], Y.radii[ball], start, end),
-            "width": 1.8,
-            "order": 1.8,
-            "label": "exposed arcs",
-        },
-        "voronoi": {
-            "kind": "voronoi",
-            "lines": _voronoi_lines(singular, np.reshape(box, (2, 2))),
-            "opacity": 0.45,
-            "label": "Voronoi graph of the singular points",
-        },
-        "singular": {"kind": "samples", "points": singular, "width": 1.8, "label": "singular points"},
-    }
-
-
-def _voronoi_lines(points: np.ndarray, box: np.ndarray) -> np.ndarray:
-    try:
-        graph = voronoi(points)
-    except PolyskelError:
-        return _NONE  # fewer than three, or all on a line
-    return np.concatenate([clip_segments(graph.segments(), box), ray_segments(graph, box)])
-
-
-def skeleton_layer(skeleton: Skeleton) -> dict:
-    """The skeleton as a layer for `polyskel_lite.explore.Board`.
-
-    Examples
-    --------
-    >>> len(skeleton_layer(Polyball([(-0.5, 0), (0.5, 0)], [1, 1]).skeleton())["lines"])
-    1
-    """
-    return {
-        "kind": "sk2",
-        "lines": skeleton.segments(),
-        "points": skeleton.vertices,
-        "width": 1.4,
-        "label": "skeleton of the union",
-    }
 
 
 def ball_numbers(Y: Polyball, skeleton: Skeleton) -> dict[str, object]:
@@ -212,18 +142,30 @@ class Balls(Explorer):
         board.handle_labels = [f"{part} of ball {i + 1}" for i in range(len(Y)) for part in ("centre", "rim")]
         board.handles = self._handles()
         self._placed = np.array(board.handles)
-        spokes = self._placed.reshape(-1, 2, 2)
-        board.draw("spokes", kind="balls", lines=spokes, width=0.7, order=1.7)
-        for name, layer in boundary_layers(Y, board.box).items():
-            board.draw(name, **layer, visible=name != "voronoi" or self.controls["voronoi"].value)
+        board.draw("spokes", "balls", lines=self._placed.reshape(-1, 2, 2), width=0.7, order=1.7)
+        self._draw_boundary(Y)
         try:
             skeleton = Y.skeleton()
         except PolyskelError:
-            board.draw("skeleton", kind="sk2")
+            board.draw("skeleton", "sk2")
             self.numbers = {}
             raise  # its sentence is shown under the board
-        board.draw("skeleton", **skeleton_layer(skeleton))
+        lines, dots = skeleton.segments(), skeleton.vertices
+        board.draw("skeleton", "sk2", lines=lines, points=dots, width=1.4, label="skeleton of the union")
         self.tell(**ball_numbers(Y, skeleton))
+
+    def _draw_boundary(self, Y: Polyball) -> None:
+        """The balls, their union, its singular points and their Voronoi graph."""
+        draw, discs, singular = self.board.draw, (Y.centers, Y.radii), Y.singular_points()
+        ball, start, end = Y.arcs()
+        arcs = (Y.centers[ball], Y.radii[ball], start, end)
+        graph = {"lines": _voronoi_lines(singular, np.reshape(self.board.box, (2, 2))), "opacity": 0.45}
+        shown, label = self.controls["voronoi"].value, "Voronoi graph of the singular points"
+        draw("balls", "balls", circles=discs, opacity=0.9, stroke=False)
+        draw("rims", "complement", circles=discs, fill=False, order=1.6, label="circles")
+        draw("boundary", "balls", arcs=arcs, width=1.8, order=1.8, label="exposed arcs")
+        draw("voronoi", "voronoi", shown, **graph, label=label)
+        draw("singular", "samples", points=singular, width=1.8, label="singular points")
 
     def _take_over(self) -> None:
         """Read the handle that was dragged, or the slider that was moved."""
@@ -256,6 +198,14 @@ class Balls(Explorer):
             inside = ((rims >= (xmin, ymin)) & (rims <= (xmax, ymax))).all(axis=1)
             handles += [center, rims[np.argmax(inside)]]
         return np.array(handles)
+
+
+def _voronoi_lines(points: np.ndarray, box: np.ndarray) -> np.ndarray:
+    try:
+        graph = voronoi(points)
+    except PolyskelError:
+        return np.empty((0, 2, 2))  # fewer than three, or all on a line
+    return np.concatenate([clip_segments(graph.segments(), box), ray_segments(graph, box)])
 
 
 def _ball_names(count: int) -> list[tuple[str, int]]:

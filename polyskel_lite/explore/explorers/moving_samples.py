@@ -15,16 +15,8 @@ from .explorer import Explorer
 _WORDS = {"delaunay": "Delaunay", "voronoi": "Voronoi", "gabriel": "Gabriel"}
 #: Ten points with acute and obtuse triangles, so that each graph has something to show.
 START = (
-    (1, 2.2),
-    (2.4, 0.9),
-    (3.1, 3.4),
-    (4.6, 2.0),
-    (5.2, 4.3),
-    (6.3, 0.8),
-    (7.0, 3.0),
-    (8.4, 4.4),
-    (8.9, 1.6),
-    (2.0, 4.6),
+    *((1, 2.2), (2.4, 0.9), (3.1, 3.4), (4.6, 2.0), (5.2, 4.3)),
+    *((6.3, 0.8), (7.0, 3.0), (8.4, 4.4), (8.9, 1.6), (2.0, 4.6)),
 )
 
 
@@ -97,9 +89,9 @@ class Graphs(Explorer):
             if self._corners in triangles:
                 slider.value = triangles.index(self._corners)
             else:
-                lost = (
-                    f"Samples {_and(self._corners)} are no triangle any more: a sample came into their ball."
-                )
+                *rest, last = map(str, sorted(self._corners))
+                names = f"{', '.join(rest)} and {last}"
+                lost = f"Samples {names} are no triangle any more: a sample came into their ball."
         self._number, self._corners = slider.value, triangles[slider.value]
         return lost
 
@@ -140,8 +132,3 @@ def _rays(dual, box) -> np.ndarray:
     start = dual.vertices[dual.ray_vertices]
     far = np.hypot(box[2] - box[0], box[3] - box[1]) + np.abs(start).max(axis=1, initial=0)
     return np.stack([start, start + far[:, None] * dual.rays], axis=1)
-
-
-def _and(numbers) -> str:
-    *rest, last = map(str, sorted(numbers))
-    return f"{', '.join(rest)} and {last}"

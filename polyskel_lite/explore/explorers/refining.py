@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import ipywidgets
@@ -9,9 +10,8 @@ import numpy as np
 
 from ... import datasets
 from ...containment import Stage, conform_stages, diametral_balls
-from ...drawing import chains
 from ..drawing_board import Board, box_around
-from .explorer import Explorer
+from .explorer import Explorer, outline
 
 if TYPE_CHECKING:
     from ...shapes import Shape
@@ -25,61 +25,6 @@ ALT = (
     "Outline of a shape. Sides in the graph are green, sides that are not in it are red, each with the ball "
     "around it and the samples inside that ball as purple diamonds."
 )
-
-
-def refinement_layers(stages: list[Stage], step: int) -> dict[str, dict]:
-    """What is drawn of one stage, for `polyskel_lite.explore.Board`.
-
-    Parameters
-    ----------
-    stages : list of Stage
-    step : int
-        Which one.
-
-    Examples
-    --------
-    >>> import polyskel_lite as psl
-    >>> stages = list(conform_stages(psl.datasets.load("horse", n=40)))
-    >>> layers = refinement_layers(stages, 0)
-    >>> len(layers["missing"]["lines"]) == len(stages[0].missing), len(layers["added"]["points"])
-    (True, 0)
-    """
-    stage = stages[step]
-    first = stages[0]
-    before = len(stages[step - 1].points) if step else len(stage.points)
-    centers, radii, intruders = diametral_balls(stage)
-    there = np.ones(len(stage.facets), dtype=bool)
-    there[stage.missing] = False
-    return {
-        "shape": {"kind": "shape", "polygons": _rings(first), "stroke": False},
-        "balls": {"kind": "balls", "circles": (centers, radii), "opacity": 0.6, "label": "smallest ball"},
-        "there": {
-            "kind": "gabriel",
-            "lines": stage.points[stage.facets[there]],
-            "label": "side in the graph",
-        },
-        "missing": {
-            "kind": "sk0",
-            "lines": stage.points[stage.facets[stage.missing]],
-            "width": 1.6,
-            "label": "side not in it",
-        },
-        "samples": {"kind": "samples", "points": stage.points[:before]},
-        "added": {
-            "kind": "sk2",
-            "points": stage.points[before:],
-            "width": 1.8,
-            "order": 6.2,
-            "label": "new in this step",
-        },
-        "intruders": {
-            "kind": "sk1",
-            "points": stage.points[intruders],
-            "width": 2.2,
-            "order": 6.5,
-            "label": "sample in a ball",
-        },
-    }
 
 
 def refinement_text(stages: list[Stage], step: int, to: str = "gabriel") -> str:
@@ -100,13 +45,11 @@ def refinement_text(stages: list[Stage], step: int, to: str = "gabriel") -> str:
     if not len(stage.missing):
         means = "Theorems 1 and 2 apply" if to == "gabriel" else "Sk0 is defined"
         return f"{head}all {len(stage.facets)} sides are in the {graph}: {means}."
-    corners = len(stage.corners)
-    halved = int((~np.isin(stage.facets[stage.missing], stage.corners).any(axis=1)).sum())
     todo = [
         f"{count} {one if count == 1 else many}"
         for count, one, many in (
-            (corners, "acute corner is cut", "acute corners are cut"),
-            (halved, "side is halved", "sides are halved"),
+            (len(stage.corners), "acute corner is cut", "acute corners are cut"),
+            (len(stage.halved), "side is halved", "sides are halved"),
         )
         if count
     ]
@@ -115,10 +58,6 @@ def refinement_text(stages: list[Stage], step: int, to: str = "gabriel") -> str:
         f"{head}{len(stage.missing)} of {len(stage.facets)} sides {verb} not in the {graph}. "
         f"Next, {' and '.join(todo)}."
     )
-
-
-def _rings(stage: Stage) -> list[np.ndarray]:
-    return [stage.points[path] for path in chains(stage.facets)]
 
 
 class Refinement(Explorer):
@@ -131,8 +70,8 @@ class Refinement(Explorer):
     """
 
     def __init__(self, shape: Shape):
-        self.shape = shape
-        self._made: dict[str, list[Stage]] = {"gabriel": list(conform_stages(shape, "gabriel"))}
+        self._stages = cache(lambda to: list(conform_stages(shape, to)))
+        self._stages("gabriel")  # here, so that what cannot be refined is refused
         graph = ipywidgets.Dropdown(
             options=[("Gabriel graph", "gabriel"), ("Delaunay triangulation", "delaunay")],
             description="graph to reach",
@@ -145,26 +84,35 @@ class Refinement(Explorer):
     @property
     def stages(self) -> list[Stage]:
         """All rounds, from the given boundary to the refined one."""
-        to = self.controls["graph"].value
-        if to not in self._made:
-            self._made[to] = list(conform_stages(self.shape, to))
-        return self._made[to]
+        return self._stages(self.controls["graph"].value)
 
     def draw(self) -> None:
         """Draw the chosen stage."""
-        step = self.controls["step"]
-        step.max = max(len(self.stages) - 1, 0)
-        for name, layer in refinement_layers(self.stages, step.value).items():
-            self.board.draw(name, **layer, visible=name != "balls" or self.controls["balls"].value)
-        stage = self.stages[step.value]
-        self.tell(refinement_text(self.stages, step.value, self.controls["graph"].value))
-        self.numbers = {
-            "step": step.value,
-            "samples": len(stage.points),
-            "sides": len(stage.facets),
-            "missing": len(stage.missing),
-            "missing_per_step": [len(stage.missing) for stage in self.stages],
+        stages, slider = self.stages, self.controls["step"]
+        slider.max = len(stages) - 1
+        step = slider.value
+        self._draw_stage(stages[step], stages[max(step - 1, 0)])
+        numbers = {
+            "step": step,
+            "samples": len(stages[step].points),
+            "sides": len(stages[step].facets),
+            "missing": len(stages[step].missing),
+            "missing_per_step": [len(stage.missing) for stage in stages],
         }
+        self.say(refinement_text(stages, step, self.controls["graph"].value), numbers)
+
+    def _draw_stage(self, stage: Stage, before: Stage) -> None:
+        draw, points, first, old = self.board.draw, stage.points, self.stages[0], len(before.points)
+        centers, radii, intruders = diametral_balls(stage)
+        there = np.delete(stage.facets, stage.missing, axis=0)
+        missing, seen = stage.facets[stage.missing], self.controls["balls"].value
+        draw("shape", "shape", polygons=outline(first.points, first.facets), stroke=False)
+        draw("balls", "balls", seen, circles=(centers, radii), opacity=0.6, label="smallest ball")
+        draw("there", "gabriel", lines=points[there], label="side in the graph")
+        draw("missing", "sk0", lines=points[missing], width=1.6, label="side not in it")
+        draw("samples", "samples", points=points[:old])
+        draw("added", "sk2", points=points[old:], width=1.8, order=6.2, label="new in this step")
+        draw("intruders", "sk1", points=points[intruders], width=2.2, order=6.5, label="sample in a ball")
 
 
 def refinement(shape: Shape | None = None) -> Refinement:

@@ -5,36 +5,31 @@ from __future__ import annotations
 import ipywidgets
 import numpy as np
 
-from ...datasets import load
 from ...errors import InputError
 from ...graphs import delaunay
-from ...shapes import Shape, check_shape
+from ...shapes import Shape
 from ...skeletons import sk2
 from ..drawing_board import Board, box_around
-from .explorer import Explorer
+from .explorer import Explorer, flat_shape, sample_sliders
 
 
 class Sampling(Explorer):
     """See `sampling`."""
 
     def __init__(self, shape: Shape | None = None, n: int = 100, seed: int = 0):
-        self.shape = load("horse") if shape is None else shape
-        check_shape(self.shape)
-        if self.shape.dimension != 2:
-            raise InputError("the explorer of samples is for shapes of the plane; this one is a solid.")
-        rings = [self.shape.points[ring] for ring in self.shape.rings()]
-        low, high = 3 * len(rings), max(400, 6 * len(rings))
+        self.shape = flat_shape(shape, "samples")
+        controls = sample_sliders(self.shape, n)
+        low, high = controls["n"].min, controls["n"].max
         if not low <= n <= high:
             raise InputError(f"n is {n}; choose from {low} to {high}, the ends of the slider.")
         self._size = float(np.hypot(*np.ptp(self.shape.points, axis=0)))
         # As many as there can be samples: the noise of the first hundred does not depend on the others.
         self._shifts = np.random.default_rng(seed).normal(size=(high, 2))
         board = Board(box_around(self.shape.points, 0.08))
+        rings = [self.shape.points[ring] for ring in self.shape.rings()]
         board.draw("shape", "shape", polygons=rings, label="shape X")
         board.draw("outline", "shape", polygons=rings, fill=False, order=3)  # over the balls
-        controls = {
-            "n": ipywidgets.IntSlider(n, min=low, max=high, description="samples n"),
-            "start": ipywidgets.FloatSlider(0.0, min=0, max=0.95, step=0.05, description="shift, in steps"),
+        controls |= {
             "noise": ipywidgets.FloatSlider(0.0, min=0, max=2, step=0.05, description="noise, % of the size"),
             "polyball": ipywidgets.Checkbox(False, description="polyball of Sk2", indent=False),
         }
@@ -71,7 +66,7 @@ class Sampling(Explorer):
             density_w=1 / radius,
             vertices=len(skeleton.vertices),
             edges=len(skeleton.edges),
-            ends=int((np.bincount(skeleton.edges.ravel()) == 1).sum()),
+            ends=len(skeleton.ends()),
             Betti_numbers_of_Sk2=betti,
             those_of_the_shape=self.shape.betti(),
         )

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...drawing import chains
 from ...skeletons import Branch, branch_csv, branch_rows
 from ..drawing_board import Board, box_around
+from .explorer import outline
 
 if TYPE_CHECKING:
     from ...simplification import Hierarchy
@@ -71,22 +71,20 @@ def result_files(h: Hierarchy, threshold: float, name: str) -> dict[str, bytes]:
     ['gear-branches.csv', 'gear-skeleton.npz', 'gear.svg']
     """
     skeleton = h.skeleton(threshold)
-    files = {f"{name}-branches.csv": (branch_csv(branch_rows(h.skeleton(threshold))) + "\n").encode()}
+    files = {f"{name}-branches.csv": (branch_csv(branch_rows(skeleton)) + "\n").encode()}
     if skeleton.dimension == 2:
         files[f"{name}.svg"] = _picture(h, threshold).encode()
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{name}-skeleton.npz"
-        skeleton.save(path)
-        files[path.name] = path.read_bytes()
-        for suffix in (".obj", ".ply") if skeleton.dimension == 3 else ():
-            skeleton.to_file(path.with_suffix(suffix))
-            files[path.with_suffix(suffix).name] = path.with_suffix(suffix).read_bytes()
+        for suffix in (".npz",) if skeleton.dimension == 2 else (".npz", ".obj", ".ply"):
+            path = Path(folder) / f"{name}-skeleton{suffix}"
+            (skeleton.save if suffix == ".npz" else skeleton.to_file)(path)
+            files[path.name] = path.read_bytes()
     return files
 
 
 def _picture(h: Hierarchy, threshold: float) -> str:
-    points, boundary = h.P.tessellation.points, chains(h.P.boundary())
+    points = h.P.tessellation.points
     board = Board(box_around(points, 0.03), alt=f"A shape and its skeleton at {threshold / np.pi:.3g} π.")
-    board.draw("shape", kind="shape", polygons=[points[path] for path in boundary])
+    board.draw("shape", kind="shape", polygons=outline(points, h.P.boundary()))
     board.draw("skeleton", kind="sk0", lines=h.skeleton(threshold).segments())
     return board.svg()

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import ipywidgets
 import numpy as np
 
 from ... import datasets
-from ...containment import DelaunayShape, conform, delaunay_shape
-from ...drawing import chains
+from ...containment import DelaunayShape
 from ...shapes import Shape
-from ...simplification import Hierarchy, Ways, end_vertices, hierarchy, paths_back, ways
+from ...simplification import STRATEGIES, Hierarchy, end_vertices, hierarchy, paths_back, ways
 from ...skeletons import sk0
 from ..drawing_board import Board, box_around
 from ..skeleton_viewer import viewer
-from .explorer import Explorer
+from .explorer import Explorer, WithStandIn, outline, refined
 
 LOOK_FOR = (
     "Move the threshold from left to right. Look for the order in which branches go, small ripples of the "
@@ -25,47 +26,6 @@ LOOK_FOR_3D = (
     "lose branches. Look for the Betti numbers, which stay, and for what the criteria as printed remove."
 )
 ALT = "A shape, its simplified shape tinted, its skeleton dotted, and what is left of it as a red line."
-
-
-def threshold_layers(h: Hierarchy, threshold: float, found: Ways | None = None) -> dict[str, dict]:
-    """What is drawn at a threshold, for `polyskel_lite.explore.Board`.
-
-    Parameters
-    ----------
-    h : Hierarchy
-        In 2D.
-    threshold : float
-        In radians.
-    found : Ways, optional
-        Of the hierarchy, if they are already there.
-
-    Examples
-    --------
-    >>> import polyskel_lite as psl
-    >>> h = psl.hierarchy(psl.datasets.load("gear", n=60))
-    >>> layers = threshold_layers(h, np.pi)
-    >>> len(layers["skeleton"]["lines"]) == len(h.skeleton(np.pi).edges)
-    True
-    """
-    points, P = h.P.tessellation.points, h.shape(threshold)
-    ends = h.simplices[end_vertices(h, threshold)]
-    places, radii = h.P.tessellation.circumcenters[ends], h.P.tessellation.circumradii[ends]
-    return {
-        "simplified": {
-            "kind": "delaunay",
-            "polygons": [points[path] for path in chains(P.boundary())],
-            "label": "simplified shape",
-            "order": 1.2,
-        },
-        "skeleton": {"kind": "sk0", "lines": h.skeleton(threshold).segments(), "label": "skeleton left"},
-        "ways": {
-            "kind": "sk2",
-            "lines": paths_back(h, threshold, found),
-            "label": "the way its ends have come",
-        },
-        "balls": {"kind": "balls", "circles": (places, radii), "fill": False, "label": "balls of its ends"},
-        "ends": {"kind": "sk2", "points": places, "width": 1.4},
-    }
 
 
 def threshold_numbers(h: Hierarchy, threshold: float) -> dict[str, object]:
@@ -114,7 +74,8 @@ class Thresholds(Explorer):
 
     def __init__(self, P: DelaunayShape):
         self.P = P
-        self._made: dict[str, tuple[Hierarchy, Ways]] = {}
+        self._hierarchy = cache(lambda criterion: hierarchy(P, criterion=criterion))
+        self._ways = cache(ways)
         threshold = ipywidgets.FloatSlider(
             1.0, min=0, max=6, step=0.05, readout_format=".2f", description="threshold (multiples of π)"
         )
@@ -122,39 +83,36 @@ class Thresholds(Explorer):
         ends = ipywidgets.Dropdown(
             options=["nothing", "their balls", "the way they have come"], description="show at the ends"
         )
-        board = Board(box_around(P.tessellation.points, 0.03), alt=ALT)
-        outline = [P.tessellation.points[path] for path in chains(P.boundary())]
-        board.draw("shape", kind="shape", polygons=outline, label="shape")
-        board.draw("all", kind="complement", lines=sk0(P).segments(), label="whole skeleton")
+        points = P.tessellation.points
+        board = Board(box_around(points, 0.03), alt=ALT)
+        board.draw("shape", "shape", polygons=outline(points, P.boundary()), label="shape")
+        board.draw("all", "complement", lines=sk0(P).segments(), label="whole skeleton")
         super().__init__(board, {"threshold": threshold, "criterion": criterion, "ends": ends}, LOOK_FOR)
 
     @property
     def hierarchy(self) -> Hierarchy:
         """That of the chosen criterion."""
-        return self._chosen[0]
-
-    @property
-    def _chosen(self) -> tuple[Hierarchy, Ways]:
-        criterion = self.controls["criterion"].value
-        if criterion not in self._made:
-            h = hierarchy(self.P, criterion=criterion)
-            self._made[criterion] = h, ways(h)
-        return self._made[criterion]
+        return self._hierarchy(self.controls["criterion"].value)
 
     def draw(self) -> None:
         """Draw what is left at the chosen threshold."""
-        h, found = self._chosen
-        threshold, ends = self.controls["threshold"].value * np.pi, self.controls["ends"].value
-        seen = {"ways": ends == "the way they have come", "balls": ends == "their balls"}
-        seen["ends"] = any(seen.values())
-        for name, layer in threshold_layers(h, threshold, found).items():
-            self.board.draw(name, **layer, visible=seen.get(name, True))
+        h, draw, shown = self.hierarchy, self.board.draw, self.controls["ends"].value
+        threshold = self.controls["threshold"].value * np.pi
+        ends = h.simplices[end_vertices(h, threshold)]
+        t = self.P.tessellation
+        places, radii = t.circumcenters[ends], t.circumradii[ends]
+        back, way, ball = paths_back(h, threshold, self._ways(h)), "the way they have come", "their balls"
+        left, simplified = h.skeleton(threshold).segments(), outline(t.points, h.shape(threshold).boundary())
+        draw("simplified", "delaunay", polygons=simplified, label="simplified shape", order=1.2)
+        draw("skeleton", "sk0", lines=left, label="skeleton left")
+        draw("ways", "sk2", shown == way, lines=back, label="the way its ends have come")
+        draw("balls", "balls", shown == ball, circles=(places, radii), fill=False, label="balls of its ends")
+        draw("ends", "sk2", shown in (way, ball), points=places, width=1.4)
         numbers = threshold_numbers(h, threshold)
-        self.tell(threshold_text(numbers))
-        self.numbers = numbers
+        self.say(threshold_text(numbers), numbers)
 
 
-class SolidThresholds(ipywidgets.VBox):
+class SolidThresholds(WithStandIn):
     """What `thresholds` returns for solids: the skeleton viewer with both strategies and both criteria.
 
     Attributes
@@ -164,14 +122,16 @@ class SolidThresholds(ipywidgets.VBox):
     hierarchies : list of Hierarchy
     """
 
+    look_for = LOOK_FOR_3D
+
     def __init__(self, P: DelaunayShape):
         self.hierarchies = [
             hierarchy(P, strategy, criterion)
-            for strategy in ("surface", "wireframe")
+            for strategy in STRATEGIES[3]
             for criterion in ("corrected", "as printed")
         ]
         about = "A solid and its simplified skeleton."
-        self.picture = viewer(self.hierarchies, threshold=np.pi / 3, alt=about, look=LOOK_FOR_3D)
+        self.picture = viewer(self.hierarchies, threshold=np.pi / 3, alt=about, look=self.look_for)
         super().__init__([self.picture])
 
     @property
@@ -188,10 +148,6 @@ class SolidThresholds(ipywidgets.VBox):
     def stand_in(self) -> str:
         """HTML for a page without a kernel: the viewer works there too."""
         return self.picture.to_html()
-
-    def _repr_mimebundle_(self, **kwargs):
-        bundle = super()._repr_mimebundle_(**kwargs)
-        return bundle | {"text/plain": f"SolidThresholds: {LOOK_FOR_3D}", "text/html": self.stand_in()}
 
 
 def thresholds(shape: Shape | DelaunayShape | None = None) -> Thresholds | SolidThresholds:
@@ -225,6 +181,5 @@ def thresholds(shape: Shape | DelaunayShape | None = None) -> Thresholds | Solid
     >>> solid.numbers["ends"]
     4
     """
-    shape = datasets.load("leaf") if shape is None else shape
-    P = shape if isinstance(shape, DelaunayShape) else delaunay_shape(conform(shape))
+    P = refined(datasets.load("leaf") if shape is None else shape)
     return Thresholds(P) if P.dimension == 2 else SolidThresholds(P)
