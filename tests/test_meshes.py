@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from polyskel_lite import DuplicatePointError, InputError, Shape, ShapeError
 from polyskel_lite.exact.boxes import self_overlaps
+from polyskel_lite.exact.nearest import nearest_facets
 from polyskel_lite.exact.triangles import (
-    distance_to_triangles,
     locate_in_mesh,
     meeting_faces,
     point_triangle_distance,
@@ -288,13 +288,13 @@ def _more_than_common(side, triangle, common) -> bool:
     return _meets_rational(np.array([p, p + (q - p) * (1 - 2.0**-12)]), triangle)
 
 
-def test_distance_to_triangles_is_the_least_of_all():
+def test_distance_to_facets_is_the_least_of_all():
     random = np.random.default_rng(3)
     size = 10.0 ** random.uniform(-3, 0, (60, 1, 1))
     triangles = random.normal(size=(60, 1, 3)) + size * random.normal(size=(60, 3, 3))
     queries = 2 * random.normal(size=(200, 3))
     every = [point_triangle_distance(queries, np.broadcast_to(t, (200, 3, 3))) for t in triangles]
-    assert distance_to_triangles(triangles, queries) == pytest.approx(np.min(every, axis=0), abs=1e-12)
+    assert nearest_facets(triangles, queries)[0] == pytest.approx(np.min(every, axis=0), abs=1e-12)
     # And a dense sample of one triangle is never nearer, and nearly as near.
     u, v = np.meshgrid(np.linspace(0, 1, 60), np.linspace(0, 1, 60))
     u, v = (x[u + v <= 1] for x in (u, v))

@@ -7,6 +7,7 @@ points, polygons and rings around edges, Betti numbers, rows of small whole numb
 
 from .arrays import unique_rows
 from .boxes import overlapping_pairs
+from .nearest import facet_distance, nearest_facets
 from .polygons import Polygons, dual_polygons, edge_rings
 from .predicates import as_integers, in_ball, in_gabriel_ball, orientation
 from .rational import (
@@ -21,7 +22,6 @@ from .rational import (
     rational_circumcenter,
 )
 from .segments import (
-    distance_to_segments,
     first_meeting,
     locate,
     nearest_on_segments,
@@ -29,7 +29,6 @@ from .segments import (
 )
 from .topology import betti_numbers, components, euler_characteristic, occurrences
 from .triangles import (
-    distance_to_triangles,
     locate_in_mesh,
     meeting_faces,
     point_triangle_distance,

@@ -10,8 +10,6 @@ import numpy as np
 from .boxes import overlapping_pairs
 from .predicates import in_gabriel_ball, orientation
 
-_CHUNK = 2_000_000  # pairs of points and segments looked at together: bounds the memory, not the result
-
 
 def segments_meet(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Whether the closed segments a[i] and b[i] share a point, exactly; their boxes must overlap.
@@ -125,32 +123,6 @@ def locate(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
     result = np.where(winding != 0, 1, -1).astype(np.int8)
     result[touching] = 0
     return result
-
-
-def distance_to_segments(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
-    """Distance from each query to the nearest segment; O(k m) time in chunks.
-
-    Parameters
-    ----------
-    segments : (m, 2, N) float array
-    queries : (k, N) float array
-
-    Returns
-    -------
-    (k,) float array
-
-    Examples
-    --------
-    >>> distance_to_segments(np.array([[[0, 0], [2, 0]]]), np.array([[1, 3], [5, 4]]))
-    array([3., 5.])
-    """
-    segments, queries = np.asarray(segments, dtype=np.float64), np.asarray(queries, dtype=np.float64)
-    out = np.empty(len(queries))
-    step = max(1, _CHUNK // max(1, len(segments)))
-    for k in range(0, len(queries), step):
-        q = queries[k : k + step, None]
-        out[k : k + step] = point_segment_distance(q, segments[None]).min(axis=1)
-    return out
 
 
 def point_segment_distance(queries: np.ndarray, segments: np.ndarray) -> np.ndarray:

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from .boxes import overlapping_pairs, self_overlaps
 from .predicates import orientation
@@ -286,47 +285,6 @@ def _shifted_turn(sides, queries):
     turn = orientation(np.stack([a, b, queries[:, :2]], axis=1))
     turn = np.where(turn == 0, np.sign(a[:, 1] - b[:, 1]), turn)
     return np.where(turn == 0, np.sign(b[:, 0] - a[:, 0]), turn).astype(np.int8)
-
-
-def distance_to_triangles(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
-    """Distance from each query to the nearest triangle.
-
-    Parameters
-    ----------
-    triangles : (m, 3, 3) float array
-    queries : (k, 3) float array
-
-    Returns
-    -------
-    (k,) float array
-        Only triangles whose ball reaches nearer than the nearest corner are looked at.
-
-    Examples
-    --------
-    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]], dtype=float)
-    >>> distance_to_triangles(floor, np.array([[1, 1, 2], [7, 0, 4]]))
-    array([2., 5.])
-    """
-    triangles, queries = np.asarray(triangles, dtype=np.float64), np.asarray(queries, dtype=np.float64)
-    best = cKDTree(triangles.reshape(-1, 3)).query(queries)[0]
-    center = (triangles.min(axis=1) + triangles.max(axis=1)) / 2
-    radius = np.linalg.norm(triangles - center[:, None], axis=2).max(axis=1)
-    # Triangles of one size together: large ones do not make the search around small ones coarse.
-    size = np.frexp(radius)[1]
-    for k in np.unique(size):
-        members = np.flatnonzero(size == k)
-        tree, reach = cKDTree(center[members]), radius[members].max() * (1 + 1e-12)
-        begin, count = 0, tree.query_ball_point(queries, best + reach, return_length=True)
-        total = np.cumsum(count)
-        while begin < len(queries):
-            done = total[begin - 1] if begin else 0
-            end = max(begin + 1, int(np.searchsorted(total, done + _CHUNK, side="right")))
-            near = tree.query_ball_point(queries[begin:end], best[begin:end] + reach)
-            i = np.repeat(np.arange(begin, end), count[begin:end])
-            j = members[np.concatenate([np.asarray(n, dtype=np.int64) for n in near])]
-            np.minimum.at(best, i, point_triangle_distance(queries[i], triangles[j]))
-            begin = end
-    return best
 
 
 def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:

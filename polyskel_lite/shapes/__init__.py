@@ -5,5 +5,5 @@ meshes must be; samples at equal distances and how densely they cover a boundary
 """
 
 from .meshes import twin_sides
-from .sampling import farthest
+from .sampling import halved
 from .shape import Shape, check_shape

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..checks import as_points
 from ..errors import InputError
-from ..exact import distance_to_segments, distance_to_triangles
+from ..exact import nearest_facets
 from .meshes import mesh_betti, signed_volume
 from .rings import rings_of, turn_of
 from .sampling import covering_radius
@@ -80,8 +80,7 @@ class Boundary:
         array([1., 5.])
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
-        distance = distance_to_segments if self.dimension == 2 else distance_to_triangles
-        return distance(self.segments, queries)
+        return nearest_facets(self.segments, queries)[0]
 
     def covering_radius(self, E=None) -> float:
         """w⁻¹, the largest distance from a boundary point to the samples (section 2.1); a length.

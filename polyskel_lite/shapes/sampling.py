@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from numbers import Integral
 
 import numpy as np
@@ -46,7 +45,7 @@ def sample_rings(rings: list[np.ndarray], n: int, start: float) -> list[np.ndarr
 def covering_radius(facets: np.ndarray, vertices: np.ndarray, E: np.ndarray) -> float:
     """Largest distance from facets (m, N, N), with these vertices, to the samples.
 
-    Right to 1e-9 of itself (1e-6 in 3D).
+    Right to 1e-9 of itself (1e-6 in 3D): facets are cut as long as a piece could hold the maximum.
 
     Examples
     --------
@@ -55,45 +54,29 @@ def covering_radius(facets: np.ndarray, vertices: np.ndarray, E: np.ndarray) -> 
     2.5
     """
     tree = cKDTree(E)
+    best = float(max(tree.query(vertices)[0].max(), 0.0))
     # Far from the origin floats are too coarse to say more.
     coarse = 16 * np.finfo(float).eps * np.abs(vertices).max()
     share = 1e-9 if facets.shape[1] == 2 else 1e-6
-    return farthest(facets, vertices, lambda points: tree.query(points)[0], share, coarse)
-
-
-def farthest(facets: np.ndarray, points: np.ndarray, distance: Callable, share: float, slack: float) -> float:
-    """Largest distance of points (k, N) and of facets (m, N, N) to a set.
-
-    Facets are cut as long as a piece could hold a point farther away than what is found.
-
-    Parameters
-    ----------
-    facets : (m, N, N) float array
-    points : (k, N) float array
-    distance : callable
-        From points to their distances; it changes by at most the way walked.
-    share, slack : float
-        The result is wrong by at most that share of itself plus the slack, a length.
-
-    Examples
-    --------
-    >>> side = np.array([[[-1.0, 0], [3, 0]]])
-    >>> farthest(side, side[0], lambda points: np.abs(points[:, 0]), 0, 0.01)
-    3.0
-    """
-    best = float(max(distance(points).max(initial=0.0), 0.0))
     while len(facets):
         middle = (facets.min(axis=1) + facets.max(axis=1)) / 2
         reach = np.linalg.norm(facets - middle[:, None], axis=2).max(axis=1)
-        around = distance(middle)
-        inner = around if facets.shape[1] == 2 else distance(facets.mean(axis=1))
+        distance = tree.query(middle)[0]
+        inner = distance if facets.shape[1] == 2 else tree.query(facets.mean(axis=1))[0]
         best = max(best, float(inner.max()))
-        facets = _halved(facets[around + reach > best * (1 + share) + slack])
+        # The distance to the samples changes by at most the way walked, so other facets cannot beat `best`.
+        facets = halved(facets[distance + reach > best * (1 + share) + coarse])
     return best
 
 
-def _halved(facets: np.ndarray) -> np.ndarray:
-    """Two pieces of every segment, four of every triangle, each half as long."""
+def halved(facets: np.ndarray) -> np.ndarray:
+    """Two pieces of every segment, four of every triangle, each half as long.
+
+    Examples
+    --------
+    >>> halved(np.array([[[0, 0], [4, 0]]])).tolist()
+    [[[0.0, 0.0], [2.0, 0.0]], [[2.0, 0.0], [4.0, 0.0]]]
+    """
     if facets.shape[1] == 2:
         a, b = facets.transpose(1, 0, 2)
         pieces = ((a, (a + b) / 2), ((a + b) / 2, b))

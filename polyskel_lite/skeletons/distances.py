@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..checks import as_points
 from ..errors import InputError
-from ..exact import distance_to_triangles
-from ..shapes import Shape, farthest
-from .branches import free_edges
+from ..exact import facet_distance, nearest_facets
+from ..shapes import Shape, halved
 from .skeleton import Skeleton
 
 
@@ -23,24 +19,27 @@ def directed_hausdorff(A, B, step: float | None = None) -> float:
     A, B : Skeleton, Shape or (k, N) array-like
         Skeletons count with their vertices, edges and polygons, shapes with their boundary, arrays as points.
     step : float, optional
-        Edges are replaced by points at most this far apart, triangles are cut until the result is known to
-        that length; by default a thousandth of the larger bounding box.
+        How exact the result has to be, a length; by default a millionth of the larger bounding box.
 
     Returns
     -------
     float
-        A length, wrong by at most ``step``.
+        A length, too small by at most ``step``.
 
     Raises
     ------
     InputError
         If a set is empty, or unbounded (rays).
 
+    Notes
+    -----
+    The distance to one segment or triangle is convex, so on a piece of A it is largest at a corner. A piece
+    is halved as long as its corners allow a distance that is larger than the largest one found.
+
     Examples
     --------
     >>> directed_hausdorff([(0, 0), (3, 4)], [(0, 0)])
     5.0
-    >>> from polyskel_lite import Shape
     >>> corner = Shape(3 * np.eye(4, 3), [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])
     >>> directed_hausdorff([(1, 1, 1)], corner)
     0.0
@@ -61,7 +60,7 @@ def hausdorff(A, B, step: float | None = None) -> float:
     Returns
     -------
     float
-        A length, wrong by at most ``step``.
+        A length, too small by at most ``step``.
 
     References
     ----------
@@ -76,62 +75,42 @@ def hausdorff(A, B, step: float | None = None) -> float:
     return max(_directed(a, b, step), _directed(b, a, step))
 
 
-class _Set(NamedTuple):
-    """Points, those along edges included, and triangles."""
-
-    points: np.ndarray
-    triangles: np.ndarray
-
-
-def _directed(a: _Set, b: _Set, step: float) -> float:
-    tree = cKDTree(b.points)
-
-    def distance(points):
-        to_points = tree.query(points)[0]
-        if not len(b.triangles):
-            return to_points
-        return np.minimum(to_points, distance_to_triangles(b.triangles, points))
-
-    return farthest(a.triangles, a.points, distance, 0.0, step)
+def _directed(a: np.ndarray, b: np.ndarray, step: float) -> float:
+    n = a.shape[1]
+    best = float(nearest_facets(b, np.unique(a.reshape(-1, n), axis=0))[0].max())
+    while len(a):
+        distance, facet = nearest_facets(b, a.mean(axis=1))
+        best = max(best, float(distance.max()))
+        corners = facet_distance(a.reshape(-1, n), np.repeat(b[facet], n, axis=0)).reshape(-1, n)
+        a = halved(a[corners.max(axis=1) > best + step])
+    return best
 
 
 def _sets(A, B, step):
-    parts = [_parts(A, "A"), _parts(B, "B")]
-    dimensions = [points.shape[1] for points, _, _ in parts]
-    if dimensions[0] != dimensions[1]:
-        raise InputError(f"A is in {dimensions[0]}D and B in {dimensions[1]}D; pass sets of one space.")
+    a, b = _facets(A, "A"), _facets(B, "B")
+    if a.shape[1] != b.shape[1]:
+        raise InputError(f"A is in {a.shape[1]}D and B in {b.shape[1]}D; pass sets of one space.")
     if step is None:
-        step = max(float(np.ptp(points, axis=0).max()) for points, _, _ in parts) / 1000
+        step = max(float(np.ptp(facets, axis=(0, 1)).max()) for facets in (a, b)) * 1e-6
     elif not step > 0:
         raise InputError(f"step is {step}; pass a positive length.")
-    return *(_Set(_points_along(points, ends, step), triangles) for points, ends, triangles in parts), step
+    return a, b, step
 
 
-def _parts(thing, name):
-    n = getattr(thing, "dimension", None)
-    ends, triangles = np.zeros((0, 2, n or 0)), np.zeros((0, 3, 3))
+def _facets(thing, name) -> np.ndarray:
+    """All of a set as segments (m, 2, 2) or triangles (m, 3, 3), some of which are no longer than a point."""
+    if isinstance(thing, Shape):
+        return thing.segments
     if isinstance(thing, Skeleton):
         if len(thing.rays):
             raise InputError(f"{name} has rays, so it is unbounded; use the inner side.")
-        points, ends = thing.vertices, thing.vertices[thing.edges[free_edges(thing)]]
-        if len(thing.polygons):
-            triangles = points[thing.polygons.triangles()]
-    elif isinstance(thing, Shape):
-        points = thing.points
-        ends, triangles = (thing.segments, triangles) if n == 2 else (ends, thing.segments)
+        points, cells = thing.vertices, [thing.edges, thing.polygons.triangles()]
     else:
-        points = as_points(thing, name=name)
-        ends = np.zeros((0, 2, points.shape[1]))
+        points, cells = as_points(thing, name=name), []
     if not len(points):
         raise InputError(f"{name} is empty; the distance to an empty set is not defined.")
-    return points, ends, triangles
-
-
-def _points_along(points, ends, step):
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    count = np.ceil(lengths / step).astype(np.intp) if step > 0 else np.zeros(len(lengths), dtype=np.intp)
-    inner = np.maximum(count - 1, 0)
-    which = np.repeat(np.arange(len(ends)), inner)
-    number = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
-    t = (number / count[which])[:, None] if len(which) else np.zeros((0, 1))
-    return np.concatenate([points, ends[which, 0] * (1 - t) + ends[which, 1] * t])
+    cells = [np.arange(len(points))[:, None], *cells]
+    n = points.shape[1]
+    # The last corner is repeated where a cell has too few.
+    rows = [np.pad(cell, ((0, 0), (0, n - cell.shape[1])), mode="edge") for cell in cells if len(cell)]
+    return points[np.concatenate(rows)]
