@@ -11,11 +11,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from .pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, rounding, swallowed, touching
+from .incidence import merged
+from .pairs import PRECISION, ROUNDING, WORST, contacts, lengths, meeting_pairs, rounding, swallowed, touching
 from .power import PowerTriangulation
 
 TURN = 2 * np.pi
@@ -36,6 +35,11 @@ class Arcs(NamedTuple):
     ball: np.ndarray
     start: np.ndarray
     end: np.ndarray
+
+    @property
+    def whole(self) -> np.ndarray:
+        """Which arcs are whole circles, (a,) bool array."""
+        return self.end - self.start >= TURN
 
 
 class DiscBoundary(NamedTuple):
@@ -62,6 +66,21 @@ class Covers(NamedTuple):
     start: np.ndarray
     width: np.ndarray
     error: np.ndarray
+
+    @classmethod
+    def about(cls, ball, x, y, above, below, error) -> Covers:
+        """Parts on both sides of the direction (x, y), by the half-angle formula tan²(half) = above / below.
+
+        Near tangency the law of cosines would lose half of the digits.
+
+        Examples
+        --------
+        >>> one = np.ones(1)
+        >>> Covers.about([0], one, 0 * one, one, one, 0 * one).width.round(6).tolist()
+        [3.141593]
+        """
+        half = 2 * np.arctan2(np.sqrt(above), np.sqrt(below))
+        return cls(ball, np.arctan2(y, x) - half, 2 * half, error)
 
 
 def disc_boundary(
@@ -101,7 +120,7 @@ def disc_boundary(
     i, j = i[both], j[both]
     touch = touching(centers, radii, i, j)
     arcs, errors = uncovered(_covers(centers, radii, i[~touch], j[~touch]), np.flatnonzero(kept))
-    part = arcs.end - arcs.start < TURN
+    part = ~arcs.whole
     ball = np.tile(arcs.ball[part], 2)
     ends = _on_circles(centers, radii, ball, np.concatenate([arcs.start[part], arcs.end[part]]))
     slack = errors[:, part].ravel() * radii[ball] + ROUNDING * (np.abs(ends).max(axis=1) + radii[ball])
@@ -136,7 +155,7 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     middle = (start + end) / 2
     axis = np.stack([np.cos(middle), np.sin(middle)], axis=1)
     # A whole circle accepts every direction, whatever the rounding of cos(π).
-    reach = np.where(end - start >= TURN, -2.0, np.cos((end - start) / 2))
+    reach = np.where(arcs.whole, -2.0, np.cos((end - start) / 2))
     step = max(1, _CHUNK // len(ball))
     for first in range(0, len(queries), step):
         rows = slice(first, first + step)
@@ -160,17 +179,15 @@ def _covers(centers, radii, i, j) -> Covers:
     ri, rj = radii[i], radii[j]
     across = centers[j] - centers[i]
     d = lengths(across)
-    # Half-angle formula for the angle at c_i in the triangle (c_i, c_j, crossing): near tangency the
-    # law of cosines would lose half of the digits.
+    # For the angle at c_i in the triangle (c_i, c_j, crossing).
     above = np.maximum((rj - d + ri) * (rj + d - ri), 0)
     below = np.maximum((d + ri - rj) * (d + ri + rj), 0)
-    half = 2 * np.arctan2(np.sqrt(above), np.sqrt(below))
     # A crossing moves by (error of the discs) / (sine of the angle at which the circles cross).
     believed = PRECISION * (ri + rj) + rounding(centers, radii, i, j)
     sine = np.sqrt(above) * np.sqrt(below) / (2 * ri * rj)
     with np.errstate(divide="ignore"):
         error = np.minimum(believed / sine, np.maximum(WORST * np.minimum(ri, rj), believed))
-    return Covers(i, np.arctan2(across[:, 1], across[:, 0]) - half, 2 * half, error / ri)
+    return Covers.about(i, *across.T, above, below, error / ri)
 
 
 def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
@@ -226,26 +243,9 @@ def _wrapped(angle: np.ndarray) -> np.ndarray:
 
 def _touching_points(centers, radii, i, j, arcs: Arcs) -> tuple[np.ndarray, np.ndarray]:
     """Where two discs touch from outside and no third one covers the place, and which discs these are."""
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    believed = PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
-    i, j, believed = (values[apart <= believed] for values in (i, j, believed))
-    share = radii[i] / (radii[i] + radii[j])
-    points = centers[i] + share[:, None] * (centers[j] - centers[i])
-    pairs = np.column_stack([i, j])
+    pairs, points, believed = contacts(centers, radii, i, j)
     if not len(points):
         return points, pairs
     # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
     free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
     return points[free], pairs[free]
-
-
-def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """The best-known point of each group of points that are linked by distances within their errors."""
-    if not len(points):
-        return points
-    near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
-    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
-    links = coo_matrix((np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(points),) * 2)
-    group = connected_components(links, directed=False)[1]
-    best_first = np.lexsort((errors, group))
-    return points[best_first[np.unique(group[best_first], return_index=True)[1]]]

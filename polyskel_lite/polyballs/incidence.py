@@ -1,4 +1,4 @@
-"""Which singular points lie on which spheres."""
+"""Singular points: which crossings of spheres are one, and which of them lie on which spheres."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from ..exact import components
-from .pairs import octaves
+from .pairs import lengths, octaves, spread_out
 
 # A singular point is on every sphere that it misses by less than this share of the radius.
 ON = 1e-9
@@ -50,10 +50,8 @@ class Incidence:
         size = np.diff(self.first)
         rows = np.arange(len(groups))
         shortest = groups[rows, size[groups].argmin(axis=1)] if len(groups) else np.zeros(0, dtype=int)
-        repeat = size[shortest]
-        row = np.repeat(rows, repeat)
-        begin = np.repeat(self.first[shortest] - (np.cumsum(repeat) - repeat), repeat)
-        ball = self.keys[begin + np.arange(len(row))] % self.count
+        row, place = spread_out(size[shortest])
+        ball = self.keys[self.first[shortest][row] + place] % self.count
         for column in groups.T:
             wanted = column[row] * self.count + ball
             at = np.minimum(np.searchsorted(self.keys, wanted), len(self.keys) - 1)
@@ -66,9 +64,8 @@ class Incidence:
         size = np.diff(self.first)
         point, ball = np.repeat(np.arange(len(size)), size), self.keys % self.count
         later = self.first[point + 1] - np.arange(len(ball)) - 1
-        i = np.repeat(np.arange(len(ball)), later)
-        j = i + 1 + np.arange(len(i)) - np.repeat(np.cumsum(later) - later, later)
-        return np.column_stack([ball[i], ball[j]])
+        i, place = spread_out(later)
+        return np.column_stack([ball[i], ball[i + 1 + place]])
 
     def balls(self, point: int) -> np.ndarray:
         """The balls of one singular point."""
@@ -97,14 +94,27 @@ def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Inc
     reach = NEAR * on.smallest(radii)
     reach[~np.isfinite(reach)] = 0
     i, j = cKDTree(corners).query_pairs(reach.max(), output_type="ndarray").T
-    apart = np.sqrt(((corners[i] - corners[j]) ** 2).sum(axis=1))
-    near = apart <= np.minimum(reach[i], reach[j])
+    near = lengths(corners[i] - corners[j]) <= np.minimum(reach[i], reach[j])
     if not near.any():
         return corners, on
     _, group = components(len(corners), np.column_stack([i, j])[near])
     # The point on most spheres is the best-known one.
-    order = np.lexsort((-np.diff(on.first), group))
-    best = order[np.unique(group[order], return_index=True)[1]]
+    best = _least(-np.diff(on.first), group)
     spread = np.zeros(len(best))
-    np.maximum.at(spread, group, np.sqrt(((corners - corners[best][group]) ** 2).sum(axis=1)))
+    np.maximum.at(spread, group, lengths(corners - corners[best][group]))
     return corners[best], Incidence(corners[best], centers, radii, origin, 2 * spread)
+
+
+def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
+    """The best-known point of each group of points that are linked by distances within their errors."""
+    if not len(points):
+        return points
+    near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
+    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
+    return points[_least(errors, components(len(points), near)[1])]
+
+
+def _least(values, group) -> np.ndarray:
+    """The row of each group with the least value."""
+    order = np.lexsort((values, group))
+    return order[np.unique(group[order], return_index=True)[1]]

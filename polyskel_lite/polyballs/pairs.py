@@ -21,8 +21,38 @@ CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not
 
 
 def lengths(vectors: np.ndarray) -> np.ndarray:
-    """Euclidean lengths of the rows."""
-    return np.sqrt((vectors**2).sum(axis=1))
+    """Euclidean lengths of vectors along the last axis.
+
+    Examples
+    --------
+    >>> lengths(np.array([(3.0, 4.0), (0, 2)])).tolist()
+    [5.0, 2.0]
+    """
+    return np.sqrt((vectors**2).sum(axis=-1))
+
+
+def units(vectors: np.ndarray) -> np.ndarray:
+    """Vectors along the last axis, scaled to length 1.
+
+    Examples
+    --------
+    >>> units(np.array([(3.0, 4.0)])).tolist()
+    [[0.6, 0.8]]
+    """
+    return vectors / lengths(vectors)[..., None]
+
+
+def spread_out(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For groups of given sizes, member by member: its group, and its number in the group from 0.
+
+    Examples
+    --------
+    >>> group, number = spread_out(np.array([2, 0, 3]))
+    >>> group.tolist(), number.tolist()
+    ([0, 0, 2, 2, 2], [0, 1, 0, 1, 2])
+    """
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    return group, np.arange(len(group)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
 
 
 def rounding(centers, radii, i, j) -> np.ndarray:
@@ -82,10 +112,40 @@ def swallowed(centers, radii, i, j) -> np.ndarray:
     return result
 
 
+def gaps(centers, radii, i, j) -> np.ndarray:
+    """How far balls are apart, negative where they meet.
+
+    Examples
+    --------
+    >>> gaps(np.array([(0.0, 0), (5, 0)]), np.array([1, 2]), [0], [1]).tolist()
+    [2.0]
+    """
+    return lengths(centers[i] - centers[j]) - radii[i] - radii[j]
+
+
 def touching(centers, radii, i, j) -> np.ndarray:
     """Which pairs do not cross but touch from outside (or miss each other), up to the tolerance."""
-    gap = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    return gap >= -PRECISION * np.minimum(radii[i], radii[j]) - rounding(centers, radii, i, j)
+    return gaps(centers, radii, i, j) >= -_believed(centers, radii, i, j)
+
+
+def contacts(centers, radii, i, j) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of pairs that are `touching` those that do not miss each other, the points, and the tolerance there.
+
+    Examples
+    --------
+    >>> pairs, points, _ = contacts(np.array([(0.0, 0), (3, 0)]), np.array([1, 2]), [0], [1])
+    >>> pairs.tolist(), points.tolist()
+    ([[0, 1]], [[1.0, 0.0]])
+    """
+    pairs, believed = np.column_stack([i, j]), _believed(centers, radii, i, j)
+    close = gaps(centers, radii, i, j) <= believed
+    i, j = pairs[close].T
+    share = radii[i] / (radii[i] + radii[j])
+    return pairs[close], centers[i] + share[:, None] * (centers[j] - centers[i]), believed[close]
+
+
+def _believed(centers, radii, i, j) -> np.ndarray:
+    return PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
 
 
 def in_any(points, centers, radii) -> np.ndarray:
@@ -117,8 +177,7 @@ def circle_offset(d, r, other):
 def frames(axes: np.ndarray) -> np.ndarray:
     """For each unit axis two unit vectors across it and the axis itself, right-handed, (m, 3, 3)."""
     # The coordinate axis most across gives the first direction.
-    x = np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)])
-    x /= lengths(x)[:, None]
+    x = units(np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)]))
     return np.stack([x, np.cross(axes, x), axes], axis=1)
 
 

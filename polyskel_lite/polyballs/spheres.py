@@ -13,10 +13,12 @@ from scipy.sparse import coo_array
 from scipy.spatial import cKDTree
 
 from ..exact import occurrences, unique_rows
-from .discs import TURN, Arcs, Covers, merged, uncovered
+from .discs import Arcs, Covers, uncovered
+from .incidence import merged
 from .pairs import (
     PRECISION,
     ROUNDING,
+    contacts,
     crossings,
     frames,
     in_any,
@@ -130,7 +132,7 @@ def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerT
 
 def _closes(found: SphereBoundary, starts, ends) -> bool:
     """Whether every end of an arc is at a singular point where another one ends."""
-    part = found.arcs.end - found.arcs.start < TURN
+    part = ~found.arcs.whole
     ends = np.concatenate([starts[part], ends[part]])
     if not len(ends):
         return True
@@ -200,7 +202,7 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     circles = _circles(centers, radii, np.column_stack([i, j])[live & ~touch])
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
-    part = arcs.end - arcs.start < TURN
+    part = ~arcs.whole
     circle = np.tile(arcs.ball[part], 2)
     ends = circles.points(circle, np.concatenate([arcs.start[part], arcs.end[part]]))
     slack = errors[:, part].ravel() * circles.radii[circle]
@@ -214,8 +216,8 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     whole = ~crossed & ~gone
     whole[whole] = ~strictly_inside(centers[whole] + radii[whole, None] * _POLE, centers, radii, _INSIDE)
     circles = Circles(*(values[keep] for values in circles))
-    pairs = np.column_stack([i, j])[live & touch]
-    pairs = _in_contact(centers, radii, pairs)
+    pairs, points, _ = contacts(centers, radii, i[live & touch], j[live & touch])
+    pairs = pairs[~strictly_inside(points, centers, radii, _INSIDE)]
     return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, pairs)
 
 
@@ -240,16 +242,6 @@ def strictly_inside(points: np.ndarray, centers: np.ndarray, radii: np.ndarray, 
     [False, True]
     """
     return in_any(points, centers, radii * (1 - margin))
-
-
-def _in_contact(centers, radii, pairs) -> np.ndarray:
-    """The pairs that do touch, in a point that no third ball covers."""
-    i, j = pairs.T
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    pairs = pairs[apart <= PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)]
-    i, j = pairs.T
-    share = (radii[i] / (radii[i] + radii[j]))[:, None]
-    return pairs[~strictly_inside(centers[i] + share * (centers[j] - centers[i]), centers, radii, _INSIDE)]
 
 
 def _circles(centers, radii, pairs) -> Circles:
@@ -283,10 +275,10 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     covered[row[all_in]] = True
     some = ~(all_in | none_in) & ~covered[row]
     row, across, excess, error, x, y = (v[some] for v in (row, across, excess, error, x, y))
-    half = 2 * np.arctan2(np.sqrt(np.maximum(across - excess, 0)), np.sqrt(np.maximum(across + excess, 0)))
-    sine = np.sqrt(np.maximum((across - excess) * (across + excess), 0))
+    above, below = np.maximum(across - excess, 0), np.maximum(across + excess, 0)
+    sine = np.sqrt(above * below)
     shift = np.minimum(np.divide(error, sine, out=np.full_like(sine, np.inf), where=sine > 0), _WORST)
-    return Covers(row, np.arctan2(y, x) - half, 2 * half, shift), covered
+    return Covers.about(row, x, y, above, below, shift), covered
 
 
 def _third_balls(power, pairs, count) -> tuple[np.ndarray, np.ndarray]:
