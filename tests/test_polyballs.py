@@ -474,7 +474,7 @@ def test_crowded_discs_are_read_off_the_power_diagram(monkeypatch):
     centers, radii = rng.random((400, 2)) * 3, rng.random(400) * 0.4 + 0.3
     plain, crowded = Polyball(centers, radii), Polyball(centers, radii)
     area, arcs = plain.area(), plain.arcs()
-    monkeypatch.setattr("polyskel_lite.polyballs.polyball._PAIRS", 0)
+    monkeypatch.setattr("polyskel_lite.polyballs.union._PAIRS", 0)
     assert crowded.area() == pytest.approx(area, rel=1e-12)
     assert crowded.arcs().ball.tolist() == arcs.ball.tolist()
     assert len(crowded.skeleton().edges) == len(plain.skeleton().edges)

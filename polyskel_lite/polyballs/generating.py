@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .pairs import lengths, meeting_pairs, rounding
+from .pairs import crossings, gaps, lengths, meeting_pairs, rounding
 
 # A ball reaches a place when it misses it by less than this share of its radius.
 _REACH = 1e-12
@@ -93,13 +93,13 @@ def lonely(centers, radii) -> np.ndarray:
     [2]
     """
     i, j = meeting_pairs(centers, radii)
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j] > rounding(centers, radii, i, j)
+    apart = gaps(centers, radii, i, j) > rounding(centers, radii, i, j)
     met = np.zeros(len(radii), dtype=bool)
     met[i[~apart]] = met[j[~apart]] = True
     return np.flatnonzero(~met)
 
 
-def isolated_lenses(centers, radii, pairs, circle_centers, circle_radii, axes) -> np.ndarray:
+def isolated_lenses(centers, radii, pairs) -> np.ndarray:
     """Those of the crossing pairs whose common part meets no third ball (definition 3), (q,) bool array.
 
     Parameters
@@ -107,27 +107,22 @@ def isolated_lenses(centers, radii, pairs, circle_centers, circle_radii, axes) -
     centers : (k, N) float array
     radii : (k,) float array
     pairs : (q, 2) int array
-    circle_centers, circle_radii, axes : (q, N), (q,), (q, N) float arrays
-        Where their spheres cross: a circle in space, two points in the plane, around a unit axis.
 
     Examples
     --------
     The third ball stays away from the lens of the first two, then not:
 
     >>> import numpy as np
-    >>> pair, middle, axis = np.array([(0, 1)]), np.array([(0.5, 0, 0)]), np.array([(1.0, 0, 0)])
     >>> for x in (2.5, 1.5):
     ...     balls = np.array([(0.0, 0, 0), (1, 0, 0), (x, 0, 0)])
-    ...     isolated_lenses(balls, np.ones(3), pair, middle, np.array([0.75**0.5]), axis).tolist()
+    ...     isolated_lenses(balls, np.ones(3), np.array([(0, 1)])).tolist()
     [True]
     [False]
     """
     alone = np.ones(len(pairs), dtype=bool)
-    for row, (i, j) in enumerate(pairs.tolist()):
-        others = np.setdiff1d(np.arange(len(radii)), (i, j))
-        gap = _distance_to_lens(
-            centers[others], centers[[i, j]], radii[[i, j]], circle_centers[row], circle_radii[row], axes[row]
-        )
+    for row, (pair, *circle) in enumerate(zip(pairs, *crossings(centers, radii, pairs), strict=True)):
+        others = np.setdiff1d(np.arange(len(radii)), pair)
+        gap = _distance_to_lens(centers[others], centers[pair], radii[pair], *circle)
         alone[row] = not (gap <= radii[others] * (1 + _REACH)).any()
     return alone
 

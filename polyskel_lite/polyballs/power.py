@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..errors import TessellationError
 from ..exact import unique_rows
+from .pairs import lengths
 
 
 class PowerTriangulation(NamedTuple):
@@ -103,7 +104,7 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
     >>> balls.faces(2).tolist()
     [[0, 2]]
     """
-    size = float((np.sqrt((centers**2).sum(axis=1)) + radii).max())
+    size = float((lengths(centers) + radii).max())
     return regular_triangulation(centers, radii**2, size)
 
 
@@ -170,7 +171,7 @@ def _simplex_around_the_unit_ball(n: int) -> np.ndarray:
     corners = np.eye(n + 1) - 1 / (n + 1)
     basis = np.linalg.svd(corners)[2][:n]
     corners = corners @ basis.T
-    corners *= 5 * n / np.sqrt((corners**2).sum(axis=1, keepdims=True))
+    corners *= 5 * n / lengths(corners)[:, None]
     turn, _ = np.linalg.qr(np.cos(np.arange(1.0, n * n + 1).reshape(n, n)))
     return corners @ turn.T
 
