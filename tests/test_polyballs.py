@@ -295,7 +295,7 @@ def test_chunks_do_not_change_results(monkeypatch):
     Y = Polyball(rng.random((60, 2)), rng.random(60) / 8)
     queries = rng.random((500, 2))
     whole = Y.contains(queries), Y.boundary_distance(queries)
-    monkeypatch.setattr("polyskel_lite.polyballs.pairs.CHUNK", 700)
+    monkeypatch.setattr("polyskel_lite.polyballs.pairs._CHUNK", 700)
     monkeypatch.setattr("polyskel_lite.polyballs.discs._CHUNK", 700)
     assert (Y.contains(queries) == whole[0]).all()
     assert (Y.boundary_distance(queries) == whole[1]).all()

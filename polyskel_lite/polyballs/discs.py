@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from .incidence import merged
-from .pairs import PRECISION, ROUNDING, WORST, contacts, lengths, meeting_pairs, rounding, swallowed, touching
+from .pairs import PRECISION, ROUNDING, WORST, contacts, lengths, meeting_pairs, relations, rounding
 from .power import PowerTriangulation
 
 TURN = 2 * np.pi
@@ -113,20 +113,16 @@ def disc_boundary(
     [[0.5, -0.866], [0.5, 0.866]]
     """
     i, j = meeting_pairs(centers, radii) if power is None else power.faces(2).T
-    kept = ~swallowed(centers, radii, i, j)
+    gone, crossing, touching = relations(centers, radii, i, j)
     if power is not None:
-        kept &= np.isin(np.arange(len(radii)), power.faces(1))
-    both = kept[i] & kept[j]
-    i, j = i[both], j[both]
-    touch = touching(centers, radii, i, j)
-    arcs, errors = uncovered(_covers(centers, radii, i[~touch], j[~touch]), np.flatnonzero(kept))
-    part = ~arcs.whole
-    ball = np.tile(arcs.ball[part], 2)
-    ends = _on_circles(centers, radii, ball, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * radii[ball] + ROUNDING * (np.abs(ends).max(axis=1) + radii[ball])
-    points, touching_pairs = _touching_points(centers, radii, i[touch], j[touch], arcs)
-    corners = merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
-    return DiscBoundary(arcs, corners, touching_pairs)
+        gone |= ~np.isin(np.arange(len(radii)), power.faces(1))
+    arcs, errors = uncovered(_covers(centers, radii, *crossing.T), np.flatnonzero(~gone))
+    ends, slack = ends_of(arcs, errors, radii, lambda *places: _on_circles(centers, radii, *places))
+    touching, points, believed = contacts(centers, radii, touching)
+    # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
+    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
+    corners = merged(np.concatenate([ends, points[free]]), np.append(slack, np.zeros(free.sum())))
+    return DiscBoundary(arcs, corners, touching[free])
 
 
 def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray, arcs: Arcs) -> np.ndarray:
@@ -190,6 +186,31 @@ def _covers(centers, radii, i, j) -> Covers:
     return Covers.about(i, *across.T, above, below, error / ri)
 
 
+def ends_of(arcs: Arcs, errors: np.ndarray, radii: np.ndarray, points) -> tuple[np.ndarray, np.ndarray]:
+    """Where arcs that are not whole circles start and end, and by how much each end may be off, a length.
+
+    Parameters
+    ----------
+    arcs, errors
+        As `uncovered` returns them.
+    radii : (k,) float array
+        Of the circles.
+    points : callable
+        ``(circles, angles) -> (m, N) float array``, places on circles.
+
+    Examples
+    --------
+    >>> half = Arcs(np.array([0]), np.zeros(1), np.array([np.pi]))
+    >>> ends_of(half, np.zeros((2, 1)), np.ones(1), lambda _, angle: np.cos(angle)[:, None])[0].tolist()
+    [[1.0], [-1.0]]
+    """
+    part = ~arcs.whole
+    circle = np.tile(arcs.ball[part], 2)
+    ends = points(circle, np.concatenate([arcs.start[part], arcs.end[part]]))
+    slack = errors[:, part].ravel() * radii[circle]
+    return ends, slack + ROUNDING * (np.abs(ends).max(axis=1, initial=0) + radii[circle])
+
+
 def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
     """What the covered parts leave of the circles in `kept`, and the errors (2, a) of both ends as angles."""
     whole = np.setdiff1d(kept, covers.ball)
@@ -239,13 +260,3 @@ def _wrapped(angle: np.ndarray) -> np.ndarray:
     """The angle in [-π, π)."""
     turned = (angle + np.pi) % TURN - np.pi
     return np.where(turned >= np.pi, -np.pi, turned)
-
-
-def _touching_points(centers, radii, i, j, arcs: Arcs) -> tuple[np.ndarray, np.ndarray]:
-    """Where two discs touch from outside and no third one covers the place, and which discs these are."""
-    pairs, points, believed = contacts(centers, radii, i, j)
-    if not len(points):
-        return points, pairs
-    # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
-    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
-    return points[free], pairs[free]

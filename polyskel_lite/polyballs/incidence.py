@@ -9,11 +9,11 @@ from ..exact import components
 from .pairs import lengths, octaves, spread_out
 
 # A singular point is on every sphere that it misses by less than this share of the radius.
-ON = 1e-9
+_ON = 1e-9
 # The same for the distance from the origin: some ten roundings, as often amplified.
-FAR = 1e-14
+_FAR = 1e-14
 # Singular points nearer to each other than this share of the smallest ball through them are one.
-NEAR = 1e-9
+_NEAR = 1e-9
 
 
 class Incidence:
@@ -31,15 +31,15 @@ class Incidence:
 
     def __init__(self, corners, centers, radii, origin, spread=None):
         self.count = len(radii)
-        slack = FAR * np.abs(origin).max() + (np.zeros(len(corners)) if spread is None else spread)
+        slack = _FAR * np.abs(origin).max() + (np.zeros(len(corners)) if spread is None else spread)
         point, ball = [], []
         tree = cKDTree(corners)
         for group in octaves(radii):
             near = cKDTree(centers[group]).sparse_distance_matrix(
-                tree, radii[group].max() * (1 + 2 * ON) + slack.max(initial=0), output_type="ndarray"
+                tree, radii[group].max() * (1 + 2 * _ON) + slack.max(initial=0), output_type="ndarray"
             )
             # No singular point is inside a ball, so that "not outside" is "on the sphere".
-            on = near["v"] <= radii[group[near["i"]]] * (1 + ON) + slack[near["j"]]
+            on = near["v"] <= radii[group[near["i"]]] * (1 + _ON) + slack[near["j"]]
             point.append(near["j"][on])
             ball.append(group[near["i"][on]])
         self.keys = np.unique(np.concatenate(point) * self.count + np.concatenate(ball))
@@ -86,12 +86,12 @@ class Incidence:
 
 
 def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Incidence]:
-    """One singular point for each group closer together than `NEAR`, and on which spheres it is.
+    """One singular point for each group closer together than `_NEAR`, and on which spheres it is.
 
     Where two spheres nearly coincide, a crossing is known so badly that rounding can show it twice.
     """
     on = Incidence(corners, centers, radii, origin)
-    reach = NEAR * on.smallest(radii)
+    reach = _NEAR * on.smallest(radii)
     reach[~np.isfinite(reach)] = 0
     i, j = cKDTree(corners).query_pairs(reach.max(), output_type="ndarray").T
     near = lengths(corners[i] - corners[j]) <= np.minimum(reach[i], reach[j])

@@ -76,9 +76,7 @@ class PowerTriangulation(NamedTuple):
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
         rows = rows[rows[:, -1] < self.count]
         more = {1: self.found[0].reshape(-1, 1), 2: self.found[0], 3: self.found[1]}
-        if len(more[size]):
-            rows = np.concatenate([rows, more[size]])
-        return unique_rows(rows, self.count)[0]
+        return unique_rows(np.concatenate([rows, more[size]]), self.count)[0]
 
 
 def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangulation:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .pairs import circle_offset, lengths, swallowed, touching
+from .pairs import circle_offset, lengths, relations
 from .union import BallUnion
 
 
@@ -45,10 +45,8 @@ def caps(union: BallUnion) -> Caps:
     ([0, 1, 2], [0.5, 0.5])
     """
     centers, radii = union.centers, union.radii
-    i, j = union.power.faces(2).T
-    gone = swallowed(centers, radii, i, j)
-    cross = ~gone[i] & ~gone[j] & ~touching(centers, radii, i, j)
-    i, j = np.concatenate([i[cross], j[cross]]), np.concatenate([j[cross], i[cross]])
+    crossing = relations(centers, radii, *union.power.faces(2).T)[1]
+    i, j = np.concatenate([crossing, crossing[:, ::-1]]).T
     across = centers[j] - centers[i]
     d = lengths(across)
     heights = circle_offset(d, radii[i], radii[j]) / radii[i]

@@ -13,11 +13,10 @@ from scipy.sparse import coo_array
 from scipy.spatial import cKDTree
 
 from ..exact import occurrences, unique_rows
-from .discs import Arcs, Covers, uncovered
+from .discs import Arcs, Covers, ends_of, uncovered
 from .incidence import merged
 from .pairs import (
     PRECISION,
-    ROUNDING,
     contacts,
     crossings,
     frames,
@@ -25,9 +24,8 @@ from .pairs import (
     lengths,
     meeting_pairs,
     octaves,
+    relations,
     rounding,
-    swallowed,
-    touching,
 )
 from .power import PowerTriangulation
 
@@ -194,31 +192,23 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     >>> len(found.arcs.ball), len(found.corners)
     (3, 2)
     """
-    count = len(radii)
-    i, j = power.faces(2).T
-    gone = swallowed(centers, radii, i, j)
-    live = ~gone[i] & ~gone[j]
-    touch = touching(centers, radii, i, j)
-    circles = _circles(centers, radii, np.column_stack([i, j])[live & ~touch])
+    gone, crossing, touching = relations(centers, radii, *power.faces(2).T)
+    middle, radius, axis = crossings(centers, radii, crossing)
+    circles = Circles(crossing, middle, radius, frames(axis))
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
-    part = ~arcs.whole
-    circle = np.tile(arcs.ball[part], 2)
-    ends = circles.points(circle, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * circles.radii[circle]
-    slack += ROUNDING * (np.abs(ends).max(axis=1, initial=0) + circles.radii[circle])
-    corners = merged(ends, slack)
+    corners = merged(*ends_of(arcs, errors, circles.radii, circles.points))
     keep, row = np.unique(arcs.ball, return_inverse=True)
-    crossed, exposed = np.zeros((2, count), dtype=bool)
-    crossed[circles.pairs] = True
-    exposed[circles.pairs[keep]] = True
+    crossed, exposed = np.zeros((2, len(radii)), dtype=bool)
+    crossed[crossing] = True
+    exposed[crossing[keep]] = True
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
-    whole[whole] = ~strictly_inside(centers[whole] + radii[whole, None] * _POLE, centers, radii, _INSIDE)
+    whole[whole] = ~_covered(centers[whole] + radii[whole, None] * _POLE, centers, radii)
     circles = Circles(*(values[keep] for values in circles))
-    pairs, points, _ = contacts(centers, radii, i[live & touch], j[live & touch])
-    pairs = pairs[~strictly_inside(points, centers, radii, _INSIDE)]
-    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, pairs)
+    touching, points, _ = contacts(centers, radii, touching)
+    touching = touching[~_covered(points, centers, radii)]
+    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
 
 
 # However badly known a circle, no point of it is off by more than this angle.
@@ -232,21 +222,9 @@ _INSIDE = 1e-9
 _POLE = np.array([0.48, 0.6, 0.64])
 
 
-def strictly_inside(points: np.ndarray, centers: np.ndarray, radii: np.ndarray, margin: float) -> np.ndarray:
-    """Which points lie in a ball by more than `margin` of its radius, (m,) bool array.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> strictly_inside(np.array([(1.0, 0, 0), (0.5, 0, 0)]), np.zeros((1, 3)), np.ones(1), 1e-9).tolist()
-    [False, True]
-    """
-    return in_any(points, centers, radii * (1 - margin))
-
-
-def _circles(centers, radii, pairs) -> Circles:
-    middle, radius, axis = crossings(centers, radii, pairs)
-    return Circles(pairs, middle, radius, frames(axis))
+def _covered(points, centers, radii) -> np.ndarray:
+    """Which points lie in a ball, beyond rounding, (m,) bool array."""
+    return in_any(points, centers, radii * (1 - _INSIDE))
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
