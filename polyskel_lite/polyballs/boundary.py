@@ -8,7 +8,8 @@ import numpy as np
 
 from ..checks import as_points
 from ..errors import InputError
-from .discs import Arcs, distance_to_arcs
+from .arcs import Arcs
+from .discs import distance_to_arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
 from .union import BallUnion

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .discs import TURN, Arcs
+from .arcs import TURN, Arcs
 from .pairs import octaves, rounding, spread_out
 from .sphere_caps import caps
 from .spheres import SphereBoundary

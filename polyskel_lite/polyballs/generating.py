@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .pairs import crossings, gaps, lengths, meeting_pairs, rounding
+from .pairs import crossings, gaps, lengths, meeting_graph, meeting_pairs, rounding
 
 # A ball reaches a place when it misses it by less than this share of its radius.
 _REACH = 1e-12
@@ -26,14 +26,9 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     first.sort()
     centers, radii = centers[first], radii[first]
     size = np.abs(centers).max(axis=1) + radii
-    near = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray")
-    i, j = near.T
-    same = lengths(centers[i] - centers[j]) + np.abs(radii[i] - radii[j]) <= 1e-12 * np.minimum(
-        radii[i], radii[j]
-    )
-    keep = np.ones(len(first), dtype=bool)
-    keep[np.maximum(i, j)[same]] = False
-    return first[keep]
+    i, j = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray").T
+    apart = lengths(centers[i] - centers[j]) + np.abs(radii[i] - radii[j])
+    return np.delete(first, np.maximum(i, j)[apart <= 1e-12 * np.minimum(radii[i], radii[j])])
 
 
 def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
@@ -69,12 +64,9 @@ def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
     candidates = np.flatnonzero(keep & ~exposed)
     if not len(candidates):
         return np.flatnonzero(keep)
-    i, j = meeting_pairs(centers, radii)
-    pairs = np.concatenate([np.column_stack([i, j]), np.column_stack([j, i])])
-    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
-    first = np.searchsorted(pairs[:, 0], np.arange(len(radii) + 1))
+    graph = meeting_graph(centers, radii)
     for ball in candidates[np.argsort(radii[candidates], kind="stable")]:
-        others = pairs[first[ball] : first[ball + 1], 1]
+        others = graph.indices[graph.indptr[ball] : graph.indptr[ball + 1]]
         others = others[keep[others]]
         # Its sphere is covered, so a place that it covers alone is in a hole between the others. The corners
         # of the hole may all be on its sphere (Delaunay balls), so that only the distance to arcs tells.
@@ -134,9 +126,8 @@ def _distance_to_lens(points, centers, radii, circle_center, circle_radius, axis
         offset = points - centers[a]
         far = lengths(offset)
         outside = np.maximum(far - radii[a], 0)
-        foot = (
-            centers[a] + offset * (np.minimum(far, radii[a]) / np.maximum(far, np.finfo(float).tiny))[:, None]
-        )
+        share = np.minimum(far, radii[a]) / np.maximum(far, np.finfo(float).tiny)
+        foot = centers[a] + offset * share[:, None]
         # The nearest point of one ball, if it is in the other one too, is the nearest of both.
         both = lengths(foot - centers[b]) <= radii[b]
         nearest[both] = np.minimum(nearest[both], outside[both])

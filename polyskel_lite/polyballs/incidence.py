@@ -106,7 +106,13 @@ def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Inc
 
 
 def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """The best-known point of each group of points that are linked by distances within their errors."""
+    """The best-known point of each group of points that are linked by distances within their errors.
+
+    Examples
+    --------
+    >>> merged(np.array([(0.0, 0), (0.1, 0), (1, 0)]), np.array([0.2, 0.1, 0.1])).tolist()
+    [[0.1, 0.0], [1.0, 0.0]]
+    """
     if not len(points):
         return points
     near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")

@@ -7,6 +7,7 @@ nearly coincide, and rounded centres and radii keep none of this exactly.
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 
 # A ball that sticks out of another one by less than this share of its radius is taken as part of
@@ -84,6 +85,19 @@ def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
         found_j.append(j[meet])
     i, j = np.concatenate(found_i), np.concatenate(found_j)
     return np.minimum(i, j), np.maximum(i, j)
+
+
+def meeting_graph(centers, radii) -> csr_array:
+    """Which balls meet which, from both sides.
+
+    Examples
+    --------
+    >>> meeting_graph(np.array([(0.0, 0), (1, 0), (3, 0)]), np.ones(3)).indices.tolist()
+    [1, 0, 2, 1]
+    """
+    i, j = meeting_pairs(centers, radii)
+    both = np.append(i, j), np.append(j, i)
+    return coo_array((np.ones(2 * len(i), dtype=bool), both), (len(radii), len(radii))).tocsr()
 
 
 def pair_bound(centers, radii) -> int:

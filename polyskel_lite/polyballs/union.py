@@ -13,9 +13,10 @@ import numpy as np
 from .discs import DiscBoundary, disc_boundary
 from .generating import distinct
 from .incidence import Incidence
+from .lost_balls import verified_boundary
 from .pairs import pair_bound
 from .power import PowerTriangulation, power_triangulation
-from .spheres import SphereBoundary, verified_boundary
+from .spheres import SphereBoundary
 
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
 # discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.

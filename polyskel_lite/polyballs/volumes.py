@@ -28,7 +28,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .discs import Arcs, Covers, uncovered
+from .arcs import Arcs, Covers, uncovered
 from .pairs import frames, spread_out
 from .sphere_caps import Caps, caps
 from .union import BallUnion
