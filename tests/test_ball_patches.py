@@ -17,22 +17,21 @@ from scipy.spatial.transform import Rotation
 import polyskel_lite as psl
 from polyskel_lite.errors import InputError
 from polyskel_lite.polyballs.distance import distance_to_boundary
-from polyskel_lite.polyballs.power import power_triangulation
 from polyskel_lite.polyballs.sphere_caps import caps
 from polyskel_lite.polyballs.sphere_patches import _fan, _icosphere, patches
-from polyskel_lite.polyballs.spheres import sphere_boundary
+from polyskel_lite.polyballs.union import BallUnion
 from polyskel_lite.polyballs.volumes import patch_areas, surface_area, volume
 
 PI = np.pi
 
 
 class Balls:
-    """Balls with what the functions under test need."""
+    """Balls where they stand, and the functions under test, which see them from their middle."""
 
     def __init__(self, centers, radii):
-        self.centers, self.radii = np.array(centers, dtype=float), np.array(radii, dtype=float)
-        self.power = power_triangulation(self.centers, self.radii)
-        self.boundary = sphere_boundary(self.centers, self.radii, self.power)
+        centers, radii = np.array(centers, dtype=float), np.array(radii, dtype=float)
+        self.union = BallUnion(centers, radii)
+        self.centers, self.radii = centers[self.union.rows], self.union.radii
 
     def __len__(self):
         return len(self.radii)
@@ -47,17 +46,17 @@ class Balls:
         return (self.centers - reach).min(axis=0), (self.centers + reach).max(axis=0)
 
     def volume(self):
-        return volume(self.centers, self.radii, self.power, self.boundary)
+        return volume(self.union)
 
     def area(self):
-        return surface_area(self.centers, self.radii, self.power, self.boundary)
+        return surface_area(self.union)
 
     def distance(self, queries):
-        queries = np.asarray(queries, dtype=float)
-        return distance_to_boundary(queries, self.centers, self.radii, self.power, self.boundary)
+        return distance_to_boundary(np.asarray(queries, dtype=float) - self.union.origin, self.union)
 
     def mesh(self, fineness=0.03):
-        return patches(self.centers, self.radii, self.power, self.boundary, fineness)
+        vertices, triangles, ball = patches(self.union, fineness)
+        return vertices + self.union.origin, triangles, ball
 
     def inside(self, points, share=0.0):
         """Deeper inside some ball than a share of its radius."""
@@ -136,10 +135,10 @@ def test_two_balls(r, s, d, far):
     d = np.linalg.norm(Y.centers[1] - Y.centers[0])
     bound = {"rel": 1e-12 if not far else 1e-9}
     assert Y.volume() == pytest.approx(4 * PI / 3 * (r**3 + s**3) - lens(r, s, d), **bound)
-    areas, normals = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
+    areas, normals = patch_areas(Y.union)
     left = [4 * PI * r * r - cap_area(r, s, d), 4 * PI * s * s - cap_area(s, r, d)]
     assert areas == pytest.approx(left, rel=bound["rel"], abs=1e-14 * r * r)
-    disc = PI * Y.boundary.circles.radii[0] ** 2
+    disc = PI * Y.union.boundary.circles.radii[0] ** 2
     across = (Y.centers[1] - Y.centers[0]) / d
     assert normals == pytest.approx(disc * np.array([-across, across]), abs=bound["rel"])
 
@@ -158,7 +157,7 @@ def test_three_balls_by_symmetry():
     """Unit balls at unit distances: each keeps 4π less two caps, whose common part counts once."""
     centers = np.array([(0, 0, 0), (1, 0, 0), (0.5, np.sqrt(0.75), 0)])
     Y = Balls(centers, np.ones(3))
-    areas, _ = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
+    areas, _ = patch_areas(Y.union)
     assert areas == pytest.approx(areas[[0, 0, 0]], rel=1e-13)
     # The common part of two caps of 60°, 60° apart, is two equal segments; one is a sector of its cap less
     # a triangle of the axis and both ends, which has the angle `apex` at the axis and `base` at the ends.
@@ -184,7 +183,7 @@ def test_whole_spheres_and_almost_nothing_are_told_apart():
     hairs = rng.standard_normal((40, 3))
     hairs /= np.linalg.norm(hairs, axis=1)[:, None]
     Y = Balls(np.concatenate([np.zeros((1, 3)), hairs]), np.append(1, np.full(40, 1e-5)))
-    areas, _ = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
+    areas, _ = patch_areas(Y.union)
     assert areas[0] == pytest.approx(4 * PI - 40 * cap_area(1, 1e-5, 1), rel=1e-14)
     assert areas[1:] == pytest.approx(np.full(40, 4 * PI * 1e-10 - cap_area(1e-5, 1, 1)), rel=1e-9)
     # Three balls around the pole of the first one leave a triangle of it with a height of about 1e-4.
@@ -195,7 +194,7 @@ def test_whole_spheres_and_almost_nothing_are_told_apart():
     Y = Balls(
         np.concatenate([np.zeros((1, 3)), below, sides * 0.5 + (0, 0, 0)]), np.append([1, 1.0], [reach] * 3)
     )
-    areas, _ = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
+    areas, _ = patch_areas(Y.union)
     assert 0 < areas[0] < 1e-6
 
 
@@ -232,7 +231,7 @@ def test_volume_and_area_against_samples(number):
     assert abs(Y.volume() - np.prod(high - low) * share) < 5 * sigma
     u = rng.standard_normal((2_000, 3))
     u /= np.linalg.norm(u, axis=1)[:, None]
-    areas, _ = patch_areas(Y.centers, Y.radii, Y.power, Y.boundary)
+    areas, _ = patch_areas(Y.union)
     for ball, (c, r) in enumerate(zip(Y.centers, Y.radii, strict=True)):
         free = ~Y.inside(c + r * u, 1e-12)
         # At least one sample's worth, where all or none of them are free.
@@ -324,7 +323,7 @@ def test_mesh_is_closed_on_the_spheres_and_faces_outward(number, fineness):
         np.repeat(Y.radii[ball, None], 3, axis=1), rel=rounding
     )
     assert not Y.inside(vertices, 1e-11 + rounding).any()
-    assert set(ball) == set(np.flatnonzero(Y.boundary.exposed))
+    assert set(ball) == set(np.flatnonzero(Y.union.exposed))
     a, b, c = away.transpose(1, 0, 2)
     outward = (np.cross(b - a, c - a) * (a + b + c)).sum(axis=1)
     assert (outward > -1e-12 * Y.radii[ball] ** 3).all()
@@ -374,7 +373,7 @@ def test_thin_patches_are_not_lost():
         vertices, triangles, ball = Y.mesh()
         there, back = directed_edges(triangles, len(vertices))
         assert np.array_equal(there, back)
-        assert set(ball) == set(np.flatnonzero(Y.boundary.exposed))
+        assert set(ball) == set(np.flatnonzero(Y.union.exposed))
         assert measure(vertices, triangles)[0] == pytest.approx(Y.volume(), rel=1e-2)
 
 
@@ -407,10 +406,10 @@ def test_spheres_that_surround_a_common_point():
 @pytest.mark.parametrize("number", of_all_families(3))
 def test_points_of_a_sphere_in_no_cap_are_on_the_boundary(number):
     Y = family_member(number)
-    covered = caps(Y.centers, Y.radii, Y.power)
+    covered = caps(Y.union)
     u = np.random.default_rng(number).standard_normal((500, 3))
     u /= np.linalg.norm(u, axis=1)[:, None]
-    for ball in np.flatnonzero(Y.boundary.exposed):
+    for ball in np.flatnonzero(Y.union.exposed):
         rows = slice(covered.first[ball], covered.first[ball + 1])
         free = (u @ covered.axes[rows].T <= covered.heights[rows]).all(axis=1)
         points = Y.centers[ball] + Y.radii[ball] * u
@@ -421,17 +420,17 @@ def test_points_of_a_sphere_in_no_cap_are_on_the_boundary(number):
 def queries_for(Y, rng, count=200):
     """Anywhere, and where it is hard: centres, axes of circles, singular points, arcs, next to these."""
     low, high = Y.box()
-    circles = Y.boundary.circles
-    row, start, end = Y.boundary.arcs
+    origin, (circles, arcs, corners) = Y.union.origin, Y.union.boundary[1:4]
+    row, start, end = arcs
     hard = [
-        Y.centers,
+        Y.centers - origin,
         circles.centers,
         circles.centers + circles.frames[:, 2] * rng.uniform(-1, 1, (len(circles.pairs), 1)),
-        Y.boundary.corners,
+        corners,
         circles.points(row, (start + end) / 2),
-        Y.centers.mean(axis=0)[None],
+        Y.centers.mean(axis=0)[None] - origin,
     ]
-    hard = np.concatenate(hard)
+    hard = np.concatenate(hard) + origin
     near = hard + 1e-4 * Y.size * rng.standard_normal(hard.shape)
     return np.concatenate(
         [

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 
 from polyskel_lite import InputError, Shape, conform, datasets
-from polyskel_lite.polyballs.discs import _wrapped, disc_boundary
+from polyskel_lite.polyballs.arcs import _wrapped
+from polyskel_lite.polyballs.discs import disc_boundary
 from polyskel_lite.polyballs.polyball import Polyball
 
 
@@ -295,7 +296,7 @@ def test_chunks_do_not_change_results(monkeypatch):
     Y = Polyball(rng.random((60, 2)), rng.random(60) / 8)
     queries = rng.random((500, 2))
     whole = Y.contains(queries), Y.boundary_distance(queries)
-    monkeypatch.setattr("polyskel_lite.polyballs.pairs.CHUNK", 700)
+    monkeypatch.setattr("polyskel_lite.polyballs.pairs._CHUNK", 700)
     monkeypatch.setattr("polyskel_lite.polyballs.discs._CHUNK", 700)
     assert (Y.contains(queries) == whole[0]).all()
     assert (Y.boundary_distance(queries) == whole[1]).all()
@@ -474,7 +475,7 @@ def test_crowded_discs_are_read_off_the_power_diagram(monkeypatch):
     centers, radii = rng.random((400, 2)) * 3, rng.random(400) * 0.4 + 0.3
     plain, crowded = Polyball(centers, radii), Polyball(centers, radii)
     area, arcs = plain.area(), plain.arcs()
-    monkeypatch.setattr("polyskel_lite.polyballs.polyball._PAIRS", 0)
+    monkeypatch.setattr("polyskel_lite.polyballs.union._PAIRS", 0)
     assert crowded.area() == pytest.approx(area, rel=1e-12)
     assert crowded.arcs().ball.tolist() == arcs.ball.tolist()
     assert len(crowded.skeleton().edges) == len(plain.skeleton().edges)

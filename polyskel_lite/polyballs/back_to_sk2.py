@@ -139,9 +139,7 @@ def _leaving(shape, t, skeleton) -> np.ndarray:
 
 
 def _contained(t, skeleton, Y: Polyball) -> np.ndarray:
-    rejected = np.ones(len(t.simplices), dtype=bool)
-    rejected[skeleton.simplices] = False
-    rejected = np.flatnonzero(rejected)
+    rejected = np.setdiff1d(np.arange(len(t.simplices)), skeleton.simplices)
     rejected = rejected[Y.contains(t.circumcenters[rejected])]
     radii = t.circumradii[rejected]
     return rejected[Y.boundary_distance(t.circumcenters[rejected]) >= radii * (1 - _OFF)]

@@ -11,31 +11,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from .pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, rounding, swallowed, touching
+from .arcs import Arcs, Covers, ends_of, uncovered
+from .incidence import merged
+from .pairs import PRECISION, WORST, contacts, lengths, meeting_pairs, relations, rounding
 from .power import PowerTriangulation
 
-TURN = 2 * np.pi
 _CHUNK = 2_000_000  # point-arc pairs looked at together: bounds the memory, not the result
-
-
-class Arcs(NamedTuple):
-    """Arcs of the boundary of a union of discs, counter-clockwise (the union on their left).
-
-    Attributes
-    ----------
-    ball : (a,) int array
-        The disc on whose circle the arc lies.
-    start, end : (a,) float arrays
-        Angles in radians, -π <= start < π and start < end <= start + 2π; equal for a whole circle.
-    """
-
-    ball: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
 
 
 class DiscBoundary(NamedTuple):
@@ -53,15 +36,6 @@ class DiscBoundary(NamedTuple):
     arcs: Arcs
     corners: np.ndarray
     touching: np.ndarray
-
-
-class Covers(NamedTuple):
-    """Covered parts of circles: from `start` to `start + width`, each end known to `error` (angles)."""
-
-    ball: np.ndarray
-    start: np.ndarray
-    width: np.ndarray
-    error: np.ndarray
 
 
 def disc_boundary(
@@ -94,20 +68,16 @@ def disc_boundary(
     [[0.5, -0.866], [0.5, 0.866]]
     """
     i, j = meeting_pairs(centers, radii) if power is None else power.faces(2).T
-    kept = ~swallowed(centers, radii, i, j)
+    gone, crossing, touching = relations(centers, radii, i, j)
     if power is not None:
-        kept &= np.isin(np.arange(len(radii)), power.faces(1))
-    both = kept[i] & kept[j]
-    i, j = i[both], j[both]
-    touch = touching(centers, radii, i, j)
-    arcs, errors = uncovered(_covers(centers, radii, i[~touch], j[~touch]), np.flatnonzero(kept))
-    part = arcs.end - arcs.start < TURN
-    ball = np.tile(arcs.ball[part], 2)
-    ends = _on_circles(centers, radii, ball, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * radii[ball] + ROUNDING * (np.abs(ends).max(axis=1) + radii[ball])
-    points, touching_pairs = _touching_points(centers, radii, i[touch], j[touch], arcs)
-    corners = merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
-    return DiscBoundary(arcs, corners, touching_pairs)
+        gone |= ~np.isin(np.arange(len(radii)), power.faces(1))
+    arcs, errors = uncovered(_covers(centers, radii, *crossing.T), np.flatnonzero(~gone))
+    ends, slack = ends_of(arcs, errors, radii, lambda *places: _on_circles(centers, radii, *places))
+    touching, points, believed = contacts(centers, radii, touching)
+    # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
+    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
+    corners = merged(np.concatenate([ends, points[free]]), np.append(slack, np.zeros(free.sum())))
+    return DiscBoundary(arcs, corners, touching[free])
 
 
 def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray, arcs: Arcs) -> np.ndarray:
@@ -136,7 +106,7 @@ def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray
     middle = (start + end) / 2
     axis = np.stack([np.cos(middle), np.sin(middle)], axis=1)
     # A whole circle accepts every direction, whatever the rounding of cos(π).
-    reach = np.where(end - start >= TURN, -2.0, np.cos((end - start) / 2))
+    reach = np.where(arcs.whole, -2.0, np.cos((end - start) / 2))
     step = max(1, _CHUNK // len(ball))
     for first in range(0, len(queries), step):
         rows = slice(first, first + step)
@@ -160,92 +130,12 @@ def _covers(centers, radii, i, j) -> Covers:
     ri, rj = radii[i], radii[j]
     across = centers[j] - centers[i]
     d = lengths(across)
-    # Half-angle formula for the angle at c_i in the triangle (c_i, c_j, crossing): near tangency the
-    # law of cosines would lose half of the digits.
+    # For the angle at c_i in the triangle (c_i, c_j, crossing).
     above = np.maximum((rj - d + ri) * (rj + d - ri), 0)
     below = np.maximum((d + ri - rj) * (d + ri + rj), 0)
-    half = 2 * np.arctan2(np.sqrt(above), np.sqrt(below))
     # A crossing moves by (error of the discs) / (sine of the angle at which the circles cross).
     believed = PRECISION * (ri + rj) + rounding(centers, radii, i, j)
     sine = np.sqrt(above) * np.sqrt(below) / (2 * ri * rj)
     with np.errstate(divide="ignore"):
         error = np.minimum(believed / sine, np.maximum(WORST * np.minimum(ri, rj), believed))
-    return Covers(i, np.arctan2(across[:, 1], across[:, 0]) - half, 2 * half, error / ri)
-
-
-def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
-    """What the covered parts leave of the circles in `kept`, and the errors (2, a) of both ends as angles."""
-    whole = np.setdiff1d(kept, covers.ball)
-    ball, origin, start, end, error = _unrolled(covers)
-    # Sweep along each circle: an arc opens where a part starts beyond the furthest end so far. Parts
-    # are widened by their errors, so that a gap which rounding may have opened stays shut.
-    order = np.lexsort((start - error, ball))
-    ball, origin, start, end, error = (values[order] for values in (ball, origin, start, end, error))
-    furthest = _furthest_so_far(ball, end + error)[:-1]
-    gap = (ball[1:] == ball[:-1]) & ((start - error)[1:] > (end + error)[furthest])
-    before, after = furthest[gap], np.flatnonzero(gap) + 1
-    first = _wrapped(origin[before] + end[before])
-    none = np.zeros(len(whole))
-    arcs = Arcs(
-        np.concatenate([ball[before], whole]),
-        np.concatenate([first, none - np.pi]),
-        np.concatenate([first + (start[after] - end[before]), none + np.pi]),
-    )
-    errors = np.array([np.concatenate([error[before], none]), np.concatenate([error[after], none])])
-    order = np.lexsort((arcs.start, arcs.ball))
-    return Arcs(*(values[order] for values in arcs)), errors[:, order]
-
-
-def _unrolled(covers: Covers) -> tuple[np.ndarray, ...]:
-    """Covered parts as intervals of a line: per circle from the start of one part once around to it again."""
-    ball, start, width, error = covers
-    balls, first = np.unique(ball, return_index=True)
-    origin = (start - error)[first][np.searchsorted(balls, ball)]
-    turned = (start - origin) % TURN
-    end = turned + width
-    over = np.flatnonzero(end + error > TURN)  # these cover the beginning of the line as well
-    index = np.concatenate([np.arange(len(ball)), over, first])
-    shift = np.repeat([0.0, -TURN, TURN], [len(ball), len(over), len(first)])
-    return ball[index], origin[index], turned[index] + shift, end[index] + shift, error[index]
-
-
-def _furthest_so_far(ball: np.ndarray, reach: np.ndarray) -> np.ndarray:
-    """For each interval, which one reaches furthest among itself and those before it on its circle."""
-    by_reach = np.lexsort((reach, ball))
-    rank = np.empty(len(ball), dtype=np.intp)
-    rank[by_reach] = np.arange(len(ball))
-    # Ranks grow from circle to circle, so one running maximum serves all circles.
-    return by_reach[np.maximum.accumulate(rank)]
-
-
-def _wrapped(angle: np.ndarray) -> np.ndarray:
-    """The angle in [-π, π)."""
-    turned = (angle + np.pi) % TURN - np.pi
-    return np.where(turned >= np.pi, -np.pi, turned)
-
-
-def _touching_points(centers, radii, i, j, arcs: Arcs) -> tuple[np.ndarray, np.ndarray]:
-    """Where two discs touch from outside and no third one covers the place, and which discs these are."""
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    believed = PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
-    i, j, believed = (values[apart <= believed] for values in (i, j, believed))
-    share = radii[i] / (radii[i] + radii[j])
-    points = centers[i] + share[:, None] * (centers[j] - centers[i])
-    pairs = np.column_stack([i, j])
-    if not len(points):
-        return points, pairs
-    # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
-    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
-    return points[free], pairs[free]
-
-
-def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """The best-known point of each group of points that are linked by distances within their errors."""
-    if not len(points):
-        return points
-    near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
-    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
-    links = coo_matrix((np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(points),) * 2)
-    group = connected_components(links, directed=False)[1]
-    best_first = np.lexsort((errors, group))
-    return points[best_first[np.unique(group[best_first], return_index=True)[1]]]
+    return Covers.about(i, *across.T, above, below, error / ri)

@@ -10,35 +10,25 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .discs import TURN
-from .pairs import rounding
-from .power import PowerTriangulation
-from .sphere_caps import Caps, caps
+from .arcs import TURN, Arcs
+from .pairs import octaves, rounding, spread_out
+from .sphere_caps import caps
 from .spheres import SphereBoundary
+from .union import BallUnion
 
 _CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
 _BELIEVED = 1e-12  # share of the size: where this decides, the point is taken for the end of an arc
 _PIECE = np.pi / 4  # arcs are found by pieces that turn by no more than this
 
 
-def distance_to_boundary(
-    queries: np.ndarray,
-    centers: np.ndarray,
-    radii: np.ndarray,
-    power: PowerTriangulation,
-    boundary: SphereBoundary,
-) -> np.ndarray:
+def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
     """Measure the distance from points inside or outside to the boundary of a union of balls.
 
     Parameters
     ----------
     queries : (m, 3) float array
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-    boundary : SphereBoundary
-        Both of the same balls.
+        Seen from the origin of the union.
+    union : BallUnion
 
     Returns
     -------
@@ -49,24 +39,19 @@ def distance_to_boundary(
     --------
     From the midpoint of two unit balls the nearest points are on their circle:
 
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> power = power_triangulation(centers, radii)
-    >>> found = sphere_boundary(centers, radii, power)
-    >>> queries = np.array([(0.5, 0, 0), (0, 0, 0), (-0.7, 0, 0), (3, 0, 0)])
-    >>> distance_to_boundary(queries, centers, radii, power, found).round(4).tolist()
+    >>> two = BallUnion(np.array([(-0.5, 0, 0), (0.5, 0, 0)]), np.ones(2))
+    >>> queries = np.array([(0, 0, 0), (-0.5, 0, 0), (-1.2, 0, 0), (2.5, 0, 0)])
+    >>> distance_to_boundary(queries, two).round(4).tolist()
     [0.866, 1.0, 0.3, 1.0]
     """
-    distance = _to_balls(queries, centers, radii)
+    distance = _to_balls(queries, union.centers, union.radii)
     # A point on many spheres that surround it is in no open ball, but inside the union all the same.
-    believed = _BELIEVED * (np.abs(centers).max() + radii.max())
+    believed = _BELIEVED * (np.abs(union.centers).max() + union.radii.max())
     inside = np.flatnonzero(distance <= believed)
     if len(inside):
         points = queries[inside]
-        best = _to_arcs(points, boundary)
-        _to_patches(points, centers, radii, boundary.exposed, caps(centers, radii, power), best)
+        best = _to_arcs(points, union.boundary)
+        _to_patches(points, union, best)
         distance[inside] = best
     return distance
 
@@ -88,13 +73,12 @@ def _lengths(points, centers) -> np.ndarray:
 
 def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
     """Distance to the nearest arc, ends included; infinite if there is none."""
-    row, start, end = boundary.arcs
+    circles, arcs = boundary.circles, boundary.arcs
+    row, start, end = arcs
     if not len(row):
         return np.full(len(points), np.inf)
-    circles = boundary.circles
     size = np.ceil((end - start) / _PIECE).astype(np.intp)
-    arc = np.repeat(np.arange(len(row)), size)
-    number = np.arange(len(arc)) - np.repeat(np.cumsum(size) - size, size)
+    arc, number = spread_out(size)
     half = ((end - start) / size / 2)[arc]
     middles = circles.points(row[arc], start[arc] + (2 * number + 1) * half)
     ends = circles.points(np.tile(row, 2), np.concatenate([start, end]))
@@ -102,9 +86,7 @@ def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
     best = marks.query(points)[0]
     reach = half * circles.radii[row[arc]]
     # One search radius for pieces of about the same length, so that short ones are not searched for in vain.
-    octave = np.frexp(reach)[1]
-    for value in np.unique(octave):
-        group = np.flatnonzero(octave == value)
+    for group in octaves(reach):
         near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
         if not len(point):
@@ -112,26 +94,28 @@ def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
         pairs = np.unique(point * len(row) + arc[piece])
         point, found = pairs // len(row), pairs % len(row)
-        gap = _ahead(points[point], circles, row[found], start[found], end[found])
+        gap = _ahead(points[point], circles, Arcs(*(values[found] for values in arcs)))
         np.minimum.at(best, point, gap)
     return best
 
 
-def _ahead(points, circles, circle, start, end) -> np.ndarray:
+def _ahead(points, circles, arcs: Arcs) -> np.ndarray:
     """Distance to the point of the circle straight ahead of its middle, infinite if it is not on the arc."""
+    circle, start, end = arcs
     x, y, z = np.einsum("mck,mk->cm", circles.frames[circle], points - circles.centers[circle])
     turn = np.arctan2(y, x) - start
-    on = (end - start >= TURN) | (turn % TURN <= end - start)
+    on = arcs.whole | (turn % TURN <= end - start)
     return np.where(on, np.hypot(z, np.hypot(x, y) - circles.radii[circle]), np.inf)
 
 
-def _to_patches(points, centers, radii, exposed, covered: Caps, best) -> None:
+def _to_patches(points, union: BallUnion, best) -> None:
     """Lower `best` to the distance of the nearest point straight ahead of a centre that is in no cap."""
-    balls = np.flatnonzero(exposed)
+    centers, radii, covered = union.centers, union.radii, caps(union)
+    balls = np.flatnonzero(union.exposed)
     size = np.diff(covered.first)
     # A foot on the edge of a cap is left to the arc there, if there is one: where many edges meet in a point
     # that they surround, there is none.
-    ball = np.repeat(np.arange(len(radii)), size)
+    ball = spread_out(size)[0]
     edge = _BELIEVED * np.sqrt(np.maximum(1 - covered.heights**2, 0))
     heights = covered.heights - edge - rounding(centers, radii, ball, ball) / radii[ball]
     step = max(1, _CHUNK // len(balls))

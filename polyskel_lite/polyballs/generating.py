@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .pairs import lengths, meeting_pairs, rounding
+from .pairs import crossings, gaps, lengths, meeting_graph, meeting_pairs, rounding
 
 # A ball reaches a place when it misses it by less than this share of its radius.
 _REACH = 1e-12
@@ -26,14 +26,9 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     first.sort()
     centers, radii = centers[first], radii[first]
     size = np.abs(centers).max(axis=1) + radii
-    near = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray")
-    i, j = near.T
-    same = lengths(centers[i] - centers[j]) + np.abs(radii[i] - radii[j]) <= 1e-12 * np.minimum(
-        radii[i], radii[j]
-    )
-    keep = np.ones(len(first), dtype=bool)
-    keep[np.maximum(i, j)[same]] = False
-    return first[keep]
+    i, j = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray").T
+    apart = lengths(centers[i] - centers[j]) + np.abs(radii[i] - radii[j])
+    return np.delete(first, np.maximum(i, j)[apart <= 1e-12 * np.minimum(radii[i], radii[j])])
 
 
 def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
@@ -69,12 +64,9 @@ def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
     candidates = np.flatnonzero(keep & ~exposed)
     if not len(candidates):
         return np.flatnonzero(keep)
-    i, j = meeting_pairs(centers, radii)
-    pairs = np.concatenate([np.column_stack([i, j]), np.column_stack([j, i])])
-    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
-    first = np.searchsorted(pairs[:, 0], np.arange(len(radii) + 1))
+    graph = meeting_graph(centers, radii)
     for ball in candidates[np.argsort(radii[candidates], kind="stable")]:
-        others = pairs[first[ball] : first[ball + 1], 1]
+        others = graph.indices[graph.indptr[ball] : graph.indptr[ball + 1]]
         others = others[keep[others]]
         # Its sphere is covered, so a place that it covers alone is in a hole between the others. The corners
         # of the hole may all be on its sphere (Delaunay balls), so that only the distance to arcs tells.
@@ -93,13 +85,13 @@ def lonely(centers, radii) -> np.ndarray:
     [2]
     """
     i, j = meeting_pairs(centers, radii)
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j] > rounding(centers, radii, i, j)
+    apart = gaps(centers, radii, i, j) > rounding(centers, radii, i, j)
     met = np.zeros(len(radii), dtype=bool)
     met[i[~apart]] = met[j[~apart]] = True
     return np.flatnonzero(~met)
 
 
-def isolated_lenses(centers, radii, pairs, circle_centers, circle_radii, axes) -> np.ndarray:
+def isolated_lenses(centers, radii, pairs) -> np.ndarray:
     """Those of the crossing pairs whose common part meets no third ball (definition 3), (q,) bool array.
 
     Parameters
@@ -107,27 +99,22 @@ def isolated_lenses(centers, radii, pairs, circle_centers, circle_radii, axes) -
     centers : (k, N) float array
     radii : (k,) float array
     pairs : (q, 2) int array
-    circle_centers, circle_radii, axes : (q, N), (q,), (q, N) float arrays
-        Where their spheres cross: a circle in space, two points in the plane, around a unit axis.
 
     Examples
     --------
     The third ball stays away from the lens of the first two, then not:
 
     >>> import numpy as np
-    >>> pair, middle, axis = np.array([(0, 1)]), np.array([(0.5, 0, 0)]), np.array([(1.0, 0, 0)])
     >>> for x in (2.5, 1.5):
     ...     balls = np.array([(0.0, 0, 0), (1, 0, 0), (x, 0, 0)])
-    ...     isolated_lenses(balls, np.ones(3), pair, middle, np.array([0.75**0.5]), axis).tolist()
+    ...     isolated_lenses(balls, np.ones(3), np.array([(0, 1)])).tolist()
     [True]
     [False]
     """
     alone = np.ones(len(pairs), dtype=bool)
-    for row, (i, j) in enumerate(pairs.tolist()):
-        others = np.setdiff1d(np.arange(len(radii)), (i, j))
-        gap = _distance_to_lens(
-            centers[others], centers[[i, j]], radii[[i, j]], circle_centers[row], circle_radii[row], axes[row]
-        )
+    for row, (pair, *circle) in enumerate(zip(pairs, *crossings(centers, radii, pairs), strict=True)):
+        others = np.setdiff1d(np.arange(len(radii)), pair)
+        gap = _distance_to_lens(centers[others], centers[pair], radii[pair], *circle)
         alone[row] = not (gap <= radii[others] * (1 + _REACH)).any()
     return alone
 
@@ -139,9 +126,8 @@ def _distance_to_lens(points, centers, radii, circle_center, circle_radius, axis
         offset = points - centers[a]
         far = lengths(offset)
         outside = np.maximum(far - radii[a], 0)
-        foot = (
-            centers[a] + offset * (np.minimum(far, radii[a]) / np.maximum(far, np.finfo(float).tiny))[:, None]
-        )
+        share = np.minimum(far, radii[a]) / np.maximum(far, np.finfo(float).tiny)
+        foot = centers[a] + offset * share[:, None]
         # The nearest point of one ball, if it is in the other one too, is the nearest of both.
         both = lengths(foot - centers[b]) <= radii[b]
         nearest[both] = np.minimum(nearest[both], outside[both])

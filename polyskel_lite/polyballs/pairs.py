@@ -7,22 +7,53 @@ nearly coincide, and rounded centres and radii keep none of this exactly.
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 
 # A ball that sticks out of another one by less than this share of its radius is taken as part of
 # it: below, the crossings of the two spheres could be anywhere (error about 1e-16 / share).
-SWALLOWED = 1e-10
+_SWALLOWED = 1e-10
 # The share of its radius to which a ball is believed: circumcentres of thin simplices lose digits.
 PRECISION = 1e-12
 # However badly conditioned, no crossing is off by more than this share of the smaller radius.
 WORST = 1e-6
 ROUNDING = 8 * np.finfo(float).eps
-CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
+_CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
 
 
 def lengths(vectors: np.ndarray) -> np.ndarray:
-    """Euclidean lengths of the rows."""
-    return np.sqrt((vectors**2).sum(axis=1))
+    """Euclidean lengths of vectors along the last axis.
+
+    Examples
+    --------
+    >>> lengths(np.array([(3.0, 4.0), (0, 2)])).tolist()
+    [5.0, 2.0]
+    """
+    return np.sqrt((vectors**2).sum(axis=-1))
+
+
+def units(vectors: np.ndarray) -> np.ndarray:
+    """Vectors along the last axis, scaled to length 1.
+
+    Examples
+    --------
+    >>> units(np.array([(3.0, 4.0)])).tolist()
+    [[0.6, 0.8]]
+    """
+    return vectors / lengths(vectors)[..., None]
+
+
+def spread_out(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For groups of given sizes, member by member: its group, and its number in the group from 0.
+
+    Examples
+    --------
+    >>> group, number = spread_out(np.array([2, 0, 3]))
+    >>> group.tolist(), number.tolist()
+    ([0, 0, 2, 2, 2], [0, 1, 0, 1, 2])
+    """
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    return group, np.arange(len(group)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
 
 
 def rounding(centers, radii, i, j) -> np.ndarray:
@@ -43,49 +74,104 @@ def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
     A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
     that few pairs too many are looked at, however unequal the balls are.
     """
-    groups = octaves(radii)
-    trees = [cKDTree(centers[group]) for group in groups]
     found_i, found_j = [], []
-    for a in range(len(groups)):
-        for b in range(a + 1):
-            reach = (radii[groups[a]].max() + radii[groups[b]].max()) * (1 + 1e-9)
-            near = trees[a].sparse_distance_matrix(trees[b], reach, output_type="ndarray")
-            i, j = groups[a][near["i"]], groups[b][near["j"]]
-            meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
-            if a == b:
-                meet &= i < j  # within one tree each pair is found from both sides
-            found_i.append(i[meet])
-            found_j.append(j[meet])
+    for a, tree, b, other, reach in _octave_pairs(centers, radii):
+        near = tree.sparse_distance_matrix(other, reach * (1 + 1e-9), output_type="ndarray")
+        i, j = a[near["i"]], b[near["j"]]
+        meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
+        if tree is other:
+            meet &= i < j  # within one tree each pair is found from both sides
+        found_i.append(i[meet])
+        found_j.append(j[meet])
     i, j = np.concatenate(found_i), np.concatenate(found_j)
     return np.minimum(i, j), np.maximum(i, j)
 
 
+def meeting_graph(centers, radii) -> csr_array:
+    """Which balls meet which, from both sides.
+
+    Examples
+    --------
+    >>> meeting_graph(np.array([(0.0, 0), (1, 0), (3, 0)]), np.ones(3)).indices.tolist()
+    [1, 0, 2, 1]
+    """
+    i, j = meeting_pairs(centers, radii)
+    both = np.append(i, j), np.append(j, i)
+    return coo_array((np.ones(2 * len(i), dtype=bool), both), (len(radii), len(radii))).tocsr()
+
+
 def pair_bound(centers, radii) -> int:
     """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
-    groups = octaves(radii)
-    trees = [cKDTree(centers[group]) for group in groups]
     return sum(
-        int(trees[a].count_neighbors(trees[b], radii[groups[a]].max() + radii[groups[b]].max()))
-        for a in range(len(groups))
-        for b in range(a + 1)
+        int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in _octave_pairs(centers, radii)
     )
 
 
-def swallowed(centers, radii, i, j) -> np.ndarray:
-    """Which balls lie in a larger one, or in an equal one with a smaller index, up to the tolerance."""
+def _octave_pairs(centers, radii):
+    """Every two groups of `octaves`, with their trees and the distance within which their balls may meet."""
+    groups = [(group, cKDTree(centers[group]), radii[group].max()) for group in octaves(radii)]
+    return [(*g[:2], *h[:2], g[2] + h[2]) for n, g in enumerate(groups) for h in groups[: n + 1]]
+
+
+def gaps(centers, radii, i, j) -> np.ndarray:
+    """How far balls are apart, negative where they meet.
+
+    Examples
+    --------
+    >>> gaps(np.array([(0.0, 0), (5, 0)]), np.array([1, 2]), [0], [1]).tolist()
+    [2.0]
+    """
+    return lengths(centers[i] - centers[j]) - radii[i] - radii[j]
+
+
+def relations(centers, radii, i, j) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What pairs of balls are to each other, up to the tolerance.
+
+    Returns
+    -------
+    swallowed : (k,) bool array
+        Balls that lie in a larger one, or in an equal one with a smaller index.
+    crossing : (m, 2) int array
+        Pairs of other balls whose spheres cross.
+    touching : (q, 2) int array
+        Pairs of other balls that touch from outside or miss each other.
+
+    Examples
+    --------
+    >>> centers, radii = np.array([(0.0, 0), (1, 0), (3, 0), (0, 0)]), np.array([1, 1, 1, 0.5])
+    >>> swallowed, crossing, touching = relations(centers, radii, *meeting_pairs(centers, radii))
+    >>> swallowed.tolist(), crossing.tolist(), touching.tolist()
+    ([False, False, False, True], [[0, 1]], [[1, 2]])
+    """
     smaller = radii[i] < radii[j]
     small, large = np.where(smaller, i, j), np.where(smaller, j, i)
     out = lengths(centers[small] - centers[large]) + radii[small] - radii[large]
-    inside = out <= SWALLOWED * radii[small] + rounding(centers, radii, small, large)
-    result = np.zeros(len(radii), dtype=bool)
-    result[small[inside]] = True
-    return result
+    inside = out <= _SWALLOWED * radii[small] + rounding(centers, radii, small, large)
+    swallowed = np.zeros(len(radii), dtype=bool)
+    swallowed[small[inside]] = True
+    pairs = np.column_stack([i, j])[~swallowed[i] & ~swallowed[j]]
+    touch = gaps(centers, radii, *pairs.T) >= -_believed(centers, radii, *pairs.T)
+    return swallowed, pairs[~touch], pairs[touch]
 
 
-def touching(centers, radii, i, j) -> np.ndarray:
-    """Which pairs do not cross but touch from outside (or miss each other), up to the tolerance."""
-    gap = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    return gap >= -PRECISION * np.minimum(radii[i], radii[j]) - rounding(centers, radii, i, j)
+def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of pairs that are `touching` (see `relations`) those that do not miss each other; where; the tolerance.
+
+    Examples
+    --------
+    >>> pairs, points, _ = contacts(np.array([(0.0, 0), (3, 0)]), np.array([1, 2]), np.array([(0, 1)]))
+    >>> pairs.tolist(), points.tolist()
+    ([[0, 1]], [[1.0, 0.0]])
+    """
+    believed = _believed(centers, radii, *touching.T)
+    close = gaps(centers, radii, *touching.T) <= believed
+    i, j = touching[close].T
+    share = radii[i] / (radii[i] + radii[j])
+    return touching[close], centers[i] + share[:, None] * (centers[j] - centers[i]), believed[close]
+
+
+def _believed(centers, radii, i, j) -> np.ndarray:
+    return PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
 
 
 def in_any(points, centers, radii) -> np.ndarray:
@@ -93,7 +179,7 @@ def in_any(points, centers, radii) -> np.ndarray:
     inside = np.zeros(len(points), dtype=bool)
     # Large balls first: they settle most points, and only the others are asked again.
     order = np.argsort(-radii, kind="stable")
-    step = max(1, CHUNK // max(1, len(points)))
+    step = max(1, _CHUNK // max(1, len(points)))
     for first in range(0, len(order), step):
         balls, left = order[first : first + step], np.flatnonzero(~inside)
         square = sum(
@@ -117,8 +203,7 @@ def circle_offset(d, r, other):
 def frames(axes: np.ndarray) -> np.ndarray:
     """For each unit axis two unit vectors across it and the axis itself, right-handed, (m, 3, 3)."""
     # The coordinate axis most across gives the first direction.
-    x = np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)])
-    x /= lengths(x)[:, None]
+    x = units(np.cross(axes, np.eye(3)[np.abs(axes).argmin(axis=1)]))
     return np.stack([x, np.cross(axes, x), axes], axis=1)
 
 

@@ -14,6 +14,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from ..errors import TessellationError
 from ..exact import unique_rows
+from .pairs import lengths
 
 
 class PowerTriangulation(NamedTuple):
@@ -36,7 +37,7 @@ class PowerTriangulation(NamedTuple):
         k: indices from k on are ghosts.
     found : tuple of (p, 2) and (q, 3) int arrays
         Sorted pairs and triples to look at besides, because Qhull, which merges what is flat within rounding,
-        may have lost them; see `polyskel_lite.polyballs.spheres.verified_boundary`.
+        may have lost them; see `polyskel_lite.polyballs.lost_balls.verified_boundary`.
     """
 
     points: np.ndarray
@@ -75,9 +76,7 @@ class PowerTriangulation(NamedTuple):
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
         rows = rows[rows[:, -1] < self.count]
         more = {1: self.found[0].reshape(-1, 1), 2: self.found[0], 3: self.found[1]}
-        if len(more[size]):
-            rows = np.concatenate([rows, more[size]])
-        return unique_rows(rows, self.count)[0]
+        return unique_rows(np.concatenate([rows, more[size]]), self.count)[0]
 
 
 def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangulation:
@@ -103,7 +102,7 @@ def power_triangulation(centers: np.ndarray, radii: np.ndarray) -> PowerTriangul
     >>> balls.faces(2).tolist()
     [[0, 2]]
     """
-    size = float((np.sqrt((centers**2).sum(axis=1)) + radii).max())
+    size = float((lengths(centers) + radii).max())
     return regular_triangulation(centers, radii**2, size)
 
 
@@ -170,7 +169,7 @@ def _simplex_around_the_unit_ball(n: int) -> np.ndarray:
     corners = np.eye(n + 1) - 1 / (n + 1)
     basis = np.linalg.svd(corners)[2][:n]
     corners = corners @ basis.T
-    corners *= 5 * n / np.sqrt((corners**2).sum(axis=1, keepdims=True))
+    corners *= 5 * n / lengths(corners)[:, None]
     turn, _ = np.linalg.qr(np.cos(np.arange(1.0, n * n + 1).reshape(n, n)))
     return corners @ turn.T
 

@@ -19,7 +19,9 @@ from ..errors import TessellationError
 from ..exact import Polygons, components, edge_rings, unique_rows
 from ..skeletons import Skeleton
 from .incidence import Incidence, gather
+from .pairs import lengths, units
 from .power import PowerTriangulation, regular_triangulation
+from .union import BallUnion
 
 # Voronoi vertices nearer than this share of their radius are one: cospherical singular points have only one,
 # and a vertex is known to some 1e-12 of its radius times what thin simplices lose.
@@ -36,27 +38,6 @@ _CONE = 1e-9
 _PLANE = 1e-12
 
 
-class Boundary(NamedTuple):
-    """What the skeleton needs to know about the boundary of a union of balls.
-
-    Attributes
-    ----------
-    corners : (s, N) float array
-        Singular points.
-    exposed : (k,) bool array
-        Balls with a piece of their sphere on the boundary.
-    alone : (k,) bool array
-        Balls whose centre is in the skeleton whatever else is.
-    bridges : (m, 2) int array
-        In space, pairs of balls whose circle is on the boundary without any singular point on it.
-    """
-
-    corners: np.ndarray
-    exposed: np.ndarray
-    alone: np.ndarray
-    bridges: np.ndarray
-
-
 class _Faces(NamedTuple):
     """Vertices of the skeleton on each Voronoi face of the singular points: rows (face, vertex), sorted."""
 
@@ -65,17 +46,16 @@ class _Faces(NamedTuple):
     vertex: np.ndarray
 
 
-def ball_skeleton(centers, radii, boundary: Boundary, origin) -> Skeleton:
-    """Build the skeleton of a union of balls from the features of its boundary.
+def ball_skeleton(union: BallUnion, alone, bridges) -> Skeleton:
+    """Build the skeleton of a union of balls from its singular points and what hangs on none of them.
 
     Parameters
     ----------
-    centers : (k, N) float array
-    radii : (k,) float array
-        No two balls equal.
-    boundary : Boundary
-    origin : (N,) float array
-        Added to the result.
+    union : BallUnion
+    alone : (k,) bool array
+        Balls whose centre is in the skeleton whatever else is.
+    bridges : (m, 2) int array
+        In space, pairs of balls whose circle is on the boundary without any singular point on it.
 
     Returns
     -------
@@ -89,33 +69,29 @@ def ball_skeleton(centers, radii, boundary: Boundary, origin) -> Skeleton:
     --------
     Three balls in a row, every two of which cross in a whole circle or not at all:
 
-    >>> import numpy as np
-    >>> centers, radii = np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3)
-    >>> whole = np.ones(3, dtype=bool)
-    >>> bare = Boundary(np.zeros((0, 3)), whole, whole, np.array([(0, 1), (1, 2)]))
-    >>> ball_skeleton(centers, radii, bare, np.zeros(3)).edges.tolist()
+    >>> row = BallUnion(np.array([(0.0, 0, 0), (1.5, 0, 0), (3, 0, 0)]), np.ones(3))
+    >>> ball_skeleton(row, row.exposed, row.crossing(bare=True)).edges.tolist()
     [[0, 1], [1, 2]]
     """
-    n = centers.shape[1]
-    vertices, sizes = centers, radii
-    edges, polygons = [boundary.bridges], Polygons()
-    if len(boundary.corners):
-        corners, on = gather(boundary.corners, vertices, radii, origin)
+    vertices, sizes = union.centers, union.radii
+    edges, polygons = [bridges], Polygons()
+    if len(union.boundary.corners):
+        corners, on = gather(union.boundary.corners, vertices, sizes, union.origin)
         t = _triangulate(corners)
-        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, radii)
-        lines = _faces(t, label, on, boundary.exposed, n)
+        label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, sizes)
+        lines = _faces(t, label, on, union.exposed, len(union.origin))
         edges.append(_chains(lines, vertices))
-        if n == 3:
-            sheets = _faces(t, label, on, boundary.exposed, 2)
+        if union.in_space:
+            sheets = _faces(t, label, on, union.exposed, 2)
             polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
             edges += [flat, polygons.sides()]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
     used = np.zeros(len(vertices), dtype=bool)
-    used[: len(radii)] = boundary.alone
+    used[: len(alone)] = alone
     used[edges] = True
     number = np.cumsum(used) - 1
     return Skeleton(
-        vertices=vertices[used] + origin,
+        vertices=vertices[used] + union.origin,
         radii=sizes[used],
         simplices=np.full(int(used.sum()), -1),
         edges=number[edges],
@@ -128,7 +104,7 @@ def _triangulate(corners) -> PowerTriangulation:
     near = cKDTree(corners).query(corners, k=2)[0][:, 1] if len(corners) > 1 else np.zeros(1)
     near[~np.isfinite(near)] = 0
     lift = np.random.default_rng(1997).random(len(corners)) * _LIFT * near**2
-    size = float(np.sqrt((corners**2).sum(axis=1)).max()) or 1.0
+    size = float(lengths(corners).max()) or 1.0
     try:
         return regular_triangulation(corners, lift, size, hide=False)
     except TessellationError:  # where points crowd together, lifting them by less than rounding does harm
@@ -158,7 +134,7 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
         [np.repeat(np.arange(len(rest)), t.simplices.shape[1]), number[t.neighbors[rest]].ravel()]
     )
     pairs = pairs[pairs[:, 1] >= 0]
-    twins = pairs[_distance(place, pairs) <= _SAME * size[pairs].min(axis=1)]
+    twins = pairs[lengths(place[pairs[:, 0]] - place[pairs[:, 1]]) <= _SAME * size[pairs].min(axis=1)]
     count, group = components(len(rest), twins)
     representative = np.zeros(count, dtype=np.int64)
     representative[group] = np.arange(len(rest))
@@ -166,18 +142,14 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
     return label, np.concatenate([centers, place[representative]]), np.append(radii, size[representative])
 
 
-def _distance(points, pairs) -> np.ndarray:
-    return np.sqrt(((points[pairs[:, 0]] - points[pairs[:, 1]]) ** 2).sum(axis=1))
-
-
 def _circumballs(corners, fallback) -> tuple[np.ndarray, np.ndarray]:
     """Centres and radii of the balls through the corners (m, N+1, N) of simplices."""
     legs = corners[:, 1:] - corners[:, :1]
-    flat = np.abs(np.linalg.det(legs)) <= _PLANE * np.prod(np.sqrt((legs**2).sum(axis=2)), axis=1)
+    flat = np.abs(np.linalg.det(legs)) <= _PLANE * np.prod(lengths(legs), axis=1)
     legs[flat] = np.eye(corners.shape[2])
     place = corners[:, 0] + np.linalg.solve(legs, (legs**2).sum(axis=2)[:, :, None])[:, :, 0] / 2
     place[flat] = fallback[flat]
-    return place, np.sqrt(((place[:, None] - corners) ** 2).sum(axis=2)).mean(axis=1)
+    return place, lengths(place[:, None] - corners).mean(axis=1)
 
 
 def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
@@ -191,13 +163,12 @@ def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
     own = on.balls_of_each(n)
     inside, clearest = np.zeros(m, dtype=bool), np.zeros(m)
     for p in simplices.T:
-        towards = centers[own[p]] - corners[p][:, None]
-        towards /= np.sqrt((towards**2).sum(axis=2, keepdims=True))
+        towards = units(centers[own[p]] - corners[p][:, None])
         offset = place - corners[p]
         clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
         towards[~clear] = np.eye(n)
         share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
-        margin = np.where(clear, share / np.sqrt((offset**2).sum(axis=1)), 0)
+        margin = np.where(clear, share / lengths(offset), 0)
         better = np.abs(margin) > clearest
         inside[better], clearest[better] = margin[better] > -_CONE, np.abs(margin[better])
     # Where more than N balls meet in every corner, look for the combination itself.
@@ -209,8 +180,7 @@ def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
 
 
 def _in_cone(vector, directions) -> bool:
-    directions = directions / np.sqrt((directions**2).sum(axis=1, keepdims=True))
-    _, residual = nnls(directions.T, vector)
+    _, residual = nnls(units(directions).T, vector)
     return residual <= _CONE * np.sqrt(vector @ vector)
 
 
@@ -278,7 +248,7 @@ def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.nda
     offset, x, size = _about_middle(face, vertices[vertex])
     first = np.cumsum(size) - size
     normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
-    y = np.cross(normal / np.sqrt((normal**2).sum(axis=1, keepdims=True)), x)
+    y = np.cross(units(normal), x)
     along, across = np.einsum("mi,mi->m", offset, x), np.einsum("mi,mi->m", offset, y)
     extent = np.maximum.reduceat(np.abs(along), first)
     wide = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)

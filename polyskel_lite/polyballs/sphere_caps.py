@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .pairs import circle_offset, lengths, swallowed, touching
-from .power import PowerTriangulation
+from .pairs import circle_offset, lengths, relations
+from .union import BallUnion
 
 
 class Caps(NamedTuple):
@@ -32,33 +32,21 @@ class Caps(NamedTuple):
     heights: np.ndarray
 
 
-def caps(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> Caps:
-    """List the caps of all spheres.
+def caps(union: BallUnion) -> Caps:
+    """List the caps of all spheres of balls in space.
 
     Balls that touch, and balls that stick out of another one by nothing but rounding, make no cap; the arcs
     of `polyskel_lite.polyballs.spheres` ignore them in the same way.
 
-    Parameters
-    ----------
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-        Of the same balls.
-
     Examples
     --------
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> found = caps(centers, radii, power_triangulation(centers, radii))
+    >>> found = caps(BallUnion(np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)))
     >>> found.first.tolist(), found.heights.tolist()
     ([0, 1, 2], [0.5, 0.5])
     """
-    i, j = power.faces(2).T
-    gone = swallowed(centers, radii, i, j)
-    cross = ~gone[i] & ~gone[j] & ~touching(centers, radii, i, j)
-    i, j = np.concatenate([i[cross], j[cross]]), np.concatenate([j[cross], i[cross]])
+    centers, radii = union.centers, union.radii
+    crossing = relations(centers, radii, *union.power.faces(2).T)[1]
+    i, j = np.concatenate([crossing, crossing[:, ::-1]]).T
     across = centers[j] - centers[i]
     d = lengths(across)
     heights = circle_offset(d, radii[i], radii[j]) / radii[i]

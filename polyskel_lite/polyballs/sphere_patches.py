@@ -14,14 +14,14 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from ..errors import InputError
-from .power import PowerTriangulation
+from ..exact import components
+from .pairs import spread_out, units
 from .sphere_caps import Caps, caps
 from .spheres import SphereBoundary
+from .union import BallUnion
 
 _EDGE = np.arctan(2)  # of the icosahedron in the unit sphere, as an angle
 _COARSEST = 2  # edges of the icosahedron are cut into so many at least: 42 vertices on a whole sphere
@@ -29,23 +29,13 @@ _CLEAR = 0.5  # vertices stay this share of an edge away from arcs
 _TURN = np.pi / 4  # no edge of an arc turns by more
 
 
-def patches(
-    centers: np.ndarray,
-    radii: np.ndarray,
-    power: PowerTriangulation,
-    boundary: SphereBoundary,
-    fineness: float = 0.03,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangulate the boundary of a union of balls.
 
     Parameters
     ----------
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-    boundary : SphereBoundary
-        Both of the same balls.
+    union : BallUnion
+        Of balls in space.
     fineness : float
         Length of the edges as a share of the longest side of the box around all balls. However small a ball
         is in the whole, its edges span about half a radian at most.
@@ -53,7 +43,8 @@ def patches(
     Returns
     -------
     vertices : (v, 3) float array
-        On the spheres to rounding; those of an arc are on both spheres, singular points on all of theirs.
+        Seen from the origin of the union. On the spheres to rounding; those of an arc are on both spheres,
+        singular points on all of theirs.
     triangles : (t, 3) int array
         Counter-clockwise as seen from outside the union.
     ball : (t,) int array
@@ -78,24 +69,22 @@ def patches(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> power = power_triangulation(centers, radii)
-    >>> vertices, triangles, ball = patches(centers, radii, power, sphere_boundary(centers, radii, power))
+    >>> two = BallUnion(np.array([(-0.5, 0, 0), (0.5, 0, 0)]), np.ones(2))
+    >>> vertices, triangles, ball = patches(two)
     >>> edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     >>> len(vertices) - len(edges) + len(triangles)
     2
-    >>> np.unique(ball).tolist(), bool(np.allclose(np.linalg.norm(vertices[triangles[ball == 0]], axis=2), 1))
+    >>> spokes = vertices[triangles] - two.centers[ball][:, None]
+    >>> np.unique(ball).tolist(), bool(np.allclose(np.linalg.norm(spokes, axis=2), 1))
     ([0, 1], True)
     """
     if not fineness > 0:
         raise InputError(f"fineness is {fineness}: pass a share of the size of the whole, such as 0.03.")
+    centers, radii = union.centers, union.radii
     size = ((centers + radii[:, None]).max(axis=0) - (centers - radii[:, None]).min(axis=0)).max()
     parts = np.maximum(np.ceil(_EDGE * radii / (fineness * size)).astype(np.int64), _COARSEST)
-    rims = _rims(boundary, radii * _EDGE / parts)
-    hulls = _hulls(centers, radii, np.flatnonzero(boundary.exposed), parts, rims, caps(centers, radii, power))
+    rims = _rims(union.boundary, radii * _EDGE / parts)
+    hulls = _hulls(union, parts, rims)
     kept, broken = _patch_side(hulls)
     ball = hulls.ball[kept]
     triangles = hulls.names[hulls.triangles[kept]]
@@ -135,7 +124,7 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     row, start, end = boundary.arcs
     circles, corners = boundary.circles, boundary.corners
     count = len(edge)
-    whole = end - start >= 2 * np.pi
+    whole = boundary.arcs.whole
     ends = np.zeros((2, len(row)), dtype=np.int64)
     if len(corners):
         places = circles.points(np.tile(row, 2), np.concatenate([start, end]))
@@ -146,8 +135,7 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     length = (end - start) * circles.radii[row] / edge[circles.pairs[row]].min(axis=1)
     # Two edges at least, or two arcs between the same singular points would be the same edge.
     pieces = np.maximum(np.ceil(np.maximum(length, (end - start) / _TURN)).astype(np.intp), 2)
-    arc = np.repeat(np.arange(len(row)), pieces)
-    place = np.arange(len(arc)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    arc, place = spread_out(pieces)
     begin = np.where((place == 0) & ~whole[arc], ends[0, arc], 0)
     inner = (place > 0) | whole[arc]
     begin[inner] = len(corners) + np.arange(inner.sum())
@@ -163,8 +151,9 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     return _Rims(vertices, edges[order], np.searchsorted(ball[order], np.arange(count + 1)))
 
 
-def _hulls(centers, radii, balls, parts, rims: _Rims, covered: Caps) -> _Hulls:
+def _hulls(union: BallUnion, parts, rims: _Rims) -> _Hulls:
     """Triangulate each sphere with its arcs' vertices and the vertices of an icosphere between them."""
+    centers, radii, balls, covered = union.centers, union.radii, np.flatnonzero(union.exposed), caps(union)
     vertices, names, triangles, edges = [rims.vertices], [], [], []
     number, copies = len(rims.vertices), 0
     for ball in balls:
@@ -235,26 +224,16 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     rim = hulls.rims[:, 0] * count + hulls.rims[:, 1]
     left, right = np.isin(key, rim), np.isin(twin, rim)
     through = paired & ~left & ~right
-    links = coo_matrix(
-        (np.ones(through.sum(), dtype=bool), (triangle[through], triangle[order[at[through]]])),
-        shape=(len(hulls.triangles),) * 2,
-    )
-    number, region = connected_components(links, directed=False)
+    links = np.column_stack([triangle[through], triangle[order[at[through]]]])
+    number, region = components(len(hulls.triangles), links)
     inside, outside = np.zeros((2, number), dtype=bool)
     inside[region[triangle[left]]] = True
     outside[region[triangle[right]]] = True
     lost = ~np.isin(rim, key)
     whole = ~np.isin(hulls.ball, hulls.rim_ball)
     unclear = (inside == outside)[region] & ~whole
-    broken = np.concatenate(
-        [
-            hulls.rim_ball[lost],
-            hulls.ball[unclear],
-            hulls.ball[triangle[~paired]],
-            hulls.ball[triangle[order[doubled]]],
-        ]
-    )
-    return inside[region] | whole, np.unique(broken)
+    doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired], triangle[order[doubled]]])
+    return inside[region] | whole, np.union1d(hulls.rim_ball[lost], hulls.ball[doubtful])
 
 
 def _fan(edges: np.ndarray) -> np.ndarray:
@@ -284,5 +263,4 @@ def _icosphere(parts: int) -> tuple[np.ndarray, np.ndarray]:
     points = points.reshape(-1, 3)
     # Edges of the faces have their points twice: one of each is enough.
     first, same = np.unique(points.round(9), axis=0, return_index=True, return_inverse=True)[1:]
-    points = points[first] / np.sqrt((points[first] ** 2).sum(axis=1, keepdims=True))
-    return points, same.reshape(-1)[triangles]
+    return units(points[first]), same.reshape(-1)[triangles]

@@ -1,7 +1,7 @@
 """The boundary of a union of balls in space: circles where spheres meet, their exposed arcs, singular points.
 
 Only pairs and triples of balls whose power cells meet can show on the boundary, so these are all that is
-looked at. On each circle the covered parts are intervals of angles, put together by the code for discs.
+looked at. On each circle the covered parts are intervals of angles, put together in `arcs`.
 """
 
 from __future__ import annotations
@@ -9,25 +9,17 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.spatial import cKDTree
 
-from ..exact import occurrences, unique_rows
-from .discs import TURN, Arcs, Covers, merged, uncovered
-from .pairs import (
-    PRECISION,
-    ROUNDING,
-    crossings,
-    frames,
-    in_any,
-    lengths,
-    meeting_pairs,
-    octaves,
-    rounding,
-    swallowed,
-    touching,
-)
+from .arcs import Arcs, Covers, ends_of, uncovered
+from .incidence import merged
+from .pairs import PRECISION, contacts, crossings, frames, in_any, lengths, relations, rounding
 from .power import PowerTriangulation
+
+# However badly known a circle, no point of it is off by more than this angle.
+_WORST = 1e-4
+# A place on a sphere is under another ball if it is in it by more than this share: some thousand roundings.
+_INSIDE = 1e-9
+_POLE = np.array([0.48, 0.6, 0.64])
 
 
 class Circles(NamedTuple):
@@ -90,88 +82,6 @@ class SphereBoundary(NamedTuple):
     sound: bool = True
 
 
-def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, SphereBoundary]:
-    """The same as `sphere_boundary`, after a check of every arc, and the triangulation that it took.
-
-    Where many balls pass through one point and nearly coincide, Qhull can lose some of them; then arcs are
-    found inside a ball. For these balls all pairs and triples that meet are looked at, not only those of the
-    power diagram, until no arc is inside a ball.
-
-    Parameters
-    ----------
-    centers, radii, power
-        As for `sphere_boundary`.
-
-    Examples
-    --------
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0), (0.5, 1, 0)]), np.ones(3)
-    >>> power, found = verified_boundary(centers, radii, power_triangulation(centers, radii))
-    >>> len(power.found[0]), len(found.corners)
-    (0, 2)
-    """
-    doubtful = np.zeros(0, dtype=np.int64)
-    for _ in range(_ROUNDS):
-        found = sphere_boundary(centers, radii, power)
-        circle, start, end = found.arcs
-        # Both ends and two places between, not symmetric ones.
-        parts = [found.circles.points(circle, start + share * (end - start)) for share in (0, 0.3, 0.7, 1)]
-        place, ball = _deepest(np.concatenate(parts), centers, radii)
-        if not len(place):
-            return power, found._replace(sound=_closes(found, parts[0], parts[-1]))
-        pairs = found.circles.pairs[circle[place % len(circle)]]
-        doubtful = np.unique(np.concatenate([doubtful, pairs.ravel(), ball]))
-        more = _all_around(doubtful, *meeting_pairs(centers, radii), len(radii))
-        if more is None:
-            break
-        power = power._replace(found=more)
-    return power, found._replace(sound=False)
-
-
-def _closes(found: SphereBoundary, starts, ends) -> bool:
-    """Whether every end of an arc is at a singular point where another one ends."""
-    part = found.arcs.end - found.arcs.start < TURN
-    ends = np.concatenate([starts[part], ends[part]])
-    if not len(ends):
-        return True
-    away, corner = cKDTree(found.corners).query(ends)
-    size = np.tile(found.circles.radii[found.arcs.ball[part]], 2)
-    return bool((away <= _DEEP * size).all() and occurrences(corner, len(found.corners)).min() > 1)
-
-
-def _all_around(balls, i, j, count: int) -> tuple[np.ndarray, np.ndarray] | None:
-    """All pairs and triples of meeting balls (pairs i, j) with one of `balls`, or None if too many."""
-    graph = coo_array(
-        (np.ones(2 * len(i), dtype=bool), (np.append(i, j), np.append(j, i))), (count, count)
-    ).tocsr()
-    rows = [graph.indices[graph.indptr[k] : graph.indptr[k + 1]] for k in balls]
-    if sum(len(row) ** 2 for row in rows) > _TRIPLES:
-        return None
-    pairs, triples = [], []
-    for k, row in zip(balls.tolist(), rows, strict=True):
-        pairs.append(np.column_stack([np.full(len(row), k), row]))
-        x, y = graph[row][:, row].nonzero()
-        triples.append(np.column_stack([np.full(len(x), k), row[x], row[y]])[x < y])
-    pairs, triples = (np.sort(np.concatenate(rows), axis=1) for rows in (pairs, triples))
-    return unique_rows(pairs, count)[0], unique_rows(triples, count)[0]
-
-
-def _deepest(places, centers, radii) -> tuple[np.ndarray, np.ndarray]:
-    """The places that are inside a ball, beyond rounding, and the ball in which each is deepest."""
-    depth, ball = np.zeros(len(places)), np.full(len(places), -1)
-    tree = cKDTree(places)
-    for group in octaves(radii):
-        near = cKDTree(centers[group]).sparse_distance_matrix(tree, radii[group].max(), output_type="ndarray")
-        inside = 1 - near["v"] / radii[group[near["i"]]]
-        order = np.argsort(inside)
-        at, inside, candidate = near["j"][order], inside[order], group[near["i"]][order]
-        better = inside > depth[at]
-        # Of several the last one stays, which is the deepest.
-        depth[at[better]], ball[at[better]] = inside[better], candidate[better]
-    deep = np.flatnonzero(depth > _DEEP)
-    return deep, ball[deep]
-
-
 def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> SphereBoundary:
     """Find the circles, arcs and singular points of the boundary of a union of balls in space.
 
@@ -192,69 +102,28 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     >>> len(found.arcs.ball), len(found.corners)
     (3, 2)
     """
-    count = len(radii)
-    i, j = power.faces(2).T
-    gone = swallowed(centers, radii, i, j)
-    live = ~gone[i] & ~gone[j]
-    touch = touching(centers, radii, i, j)
-    circles = _circles(centers, radii, np.column_stack([i, j])[live & ~touch])
+    gone, crossing, touching = relations(centers, radii, *power.faces(2).T)
+    middle, radius, axis = crossings(centers, radii, crossing)
+    circles = Circles(crossing, middle, radius, frames(axis))
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
-    part = arcs.end - arcs.start < TURN
-    circle = np.tile(arcs.ball[part], 2)
-    ends = circles.points(circle, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * circles.radii[circle]
-    slack += ROUNDING * (np.abs(ends).max(axis=1, initial=0) + circles.radii[circle])
-    corners = merged(ends, slack)
+    corners = merged(*ends_of(arcs, errors, circles.radii, circles.points))
     keep, row = np.unique(arcs.ball, return_inverse=True)
-    crossed, exposed = np.zeros((2, count), dtype=bool)
-    crossed[circles.pairs] = True
-    exposed[circles.pairs[keep]] = True
+    crossed, exposed = np.zeros((2, len(radii)), dtype=bool)
+    crossed[crossing] = True
+    exposed[crossing[keep]] = True
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
-    whole[whole] = ~strictly_inside(centers[whole] + radii[whole, None] * _POLE, centers, radii, _INSIDE)
+    whole[whole] = ~_covered(centers[whole] + radii[whole, None] * _POLE, centers, radii)
     circles = Circles(*(values[keep] for values in circles))
-    pairs = np.column_stack([i, j])[live & touch]
-    pairs = _in_contact(centers, radii, pairs)
-    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, pairs)
+    touching, points, _ = contacts(centers, radii, touching)
+    touching = touching[~_covered(points, centers, radii)]
+    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
 
 
-# However badly known a circle, no point of it is off by more than this angle.
-_WORST = 1e-4
-# An arc deeper in a ball than this share of its radius is not on the boundary; less may be a badly known end.
-_DEEP = 1e-4
-_ROUNDS = 6
-_TRIPLES = 20_000_000  # rows of the table of triples: above, memory and patience end
-# A place on a sphere is under another ball if it is in it by more than this share: some thousand roundings.
-_INSIDE = 1e-9
-_POLE = np.array([0.48, 0.6, 0.64])
-
-
-def strictly_inside(points: np.ndarray, centers: np.ndarray, radii: np.ndarray, margin: float) -> np.ndarray:
-    """Which points lie in a ball by more than `margin` of its radius, (m,) bool array.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> strictly_inside(np.array([(1.0, 0, 0), (0.5, 0, 0)]), np.zeros((1, 3)), np.ones(1), 1e-9).tolist()
-    [False, True]
-    """
-    return in_any(points, centers, radii * (1 - margin))
-
-
-def _in_contact(centers, radii, pairs) -> np.ndarray:
-    """The pairs that do touch, in a point that no third ball covers."""
-    i, j = pairs.T
-    apart = lengths(centers[i] - centers[j]) - radii[i] - radii[j]
-    pairs = pairs[apart <= PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)]
-    i, j = pairs.T
-    share = (radii[i] / (radii[i] + radii[j]))[:, None]
-    return pairs[~strictly_inside(centers[i] + share * (centers[j] - centers[i]), centers, radii, _INSIDE)]
-
-
-def _circles(centers, radii, pairs) -> Circles:
-    middle, radius, axis = crossings(centers, radii, pairs)
-    return Circles(pairs, middle, radius, frames(axis))
+def _covered(points, centers, radii) -> np.ndarray:
+    """Which points lie in a ball, beyond rounding, (m,) bool array."""
+    return in_any(points, centers, radii * (1 - _INSIDE))
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
@@ -283,10 +152,10 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     covered[row[all_in]] = True
     some = ~(all_in | none_in) & ~covered[row]
     row, across, excess, error, x, y = (v[some] for v in (row, across, excess, error, x, y))
-    half = 2 * np.arctan2(np.sqrt(np.maximum(across - excess, 0)), np.sqrt(np.maximum(across + excess, 0)))
-    sine = np.sqrt(np.maximum((across - excess) * (across + excess), 0))
+    above, below = np.maximum(across - excess, 0), np.maximum(across + excess, 0)
+    sine = np.sqrt(above * below)
     shift = np.minimum(np.divide(error, sine, out=np.full_like(sine, np.inf), where=sine > 0), _WORST)
-    return Covers(row, np.arctan2(y, x) - half, 2 * half, shift), covered
+    return Covers.about(row, x, y, above, below, shift), covered
 
 
 def _third_balls(power, pairs, count) -> tuple[np.ndarray, np.ndarray]:

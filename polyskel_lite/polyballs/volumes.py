@@ -28,11 +28,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .discs import Arcs, Covers, uncovered
-from .pairs import frames
-from .power import PowerTriangulation
+from .arcs import Arcs, Covers, uncovered
+from .pairs import frames, spread_out
 from .sphere_caps import Caps, caps
-from .spheres import SphereBoundary
+from .union import BallUnion
 
 _WHOLE = 4 * np.pi
 _TOUCH = 1e-12  # circles this near to each other, on the unit sphere, touch or are the same
@@ -44,19 +43,8 @@ _POLES = np.sqrt(1 - _HEIGHT**2) * np.array([np.cos(2.4 * np.arange(32)), np.sin
 _POLES = np.column_stack([_POLES.T, _HEIGHT])
 
 
-def surface_area(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
-) -> float:
+def surface_area(union: BallUnion) -> float:
     """Compute the area of the boundary of a union of balls, walls of cavities included.
-
-    Parameters
-    ----------
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-    boundary : SphereBoundary
-        Both of the same balls.
 
     Returns
     -------
@@ -73,30 +61,15 @@ def surface_area(
     --------
     Two unit balls with centres 1 apart show three quarters of their spheres:
 
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> power = power_triangulation(centers, radii)
-    >>> round(surface_area(centers, radii, power, sphere_boundary(centers, radii, power)) / np.pi, 12)
+    >>> two = BallUnion(np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2))
+    >>> round(surface_area(two) / np.pi, 12)
     6.0
     """
-    return float(patch_areas(centers, radii, power, boundary)[0].sum())
+    return float(patch_areas(union)[0].sum())
 
 
-def volume(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
-) -> float:
+def volume(union: BallUnion) -> float:
     """Compute the volume of a union of balls.
-
-    Parameters
-    ----------
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-    boundary : SphereBoundary
-        Both of the same balls.
 
     Returns
     -------
@@ -111,33 +84,17 @@ def volume(
     --------
     Two unit balls with centres 1 apart, whose caps of height 1/2 are cut off, 5π/24 each:
 
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> power = power_triangulation(centers, radii)
-    >>> boundary = sphere_boundary(centers, radii, power)
-    >>> round(volume(centers, radii, power, boundary) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
+    >>> two = BallUnion(np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2))
+    >>> round(volume(two) / np.pi, 12), 2 * (4 / 3 - 5 / 24)
     (2.25, 2.25)
     """
-    areas, normals = patch_areas(centers, radii, power, boundary)
-    places = centers - (centers.min(axis=0) + centers.max(axis=0)) / 2
-    return float((radii * areas + (places * normals).sum(axis=1)).sum() / 3)
+    areas, normals = patch_areas(union)
+    places = union.centers - (union.centers.min(axis=0) + union.centers.max(axis=0)) / 2
+    return float((union.radii * areas + (places * normals).sum(axis=1)).sum() / 3)
 
 
-def patch_areas(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation, boundary: SphereBoundary
-) -> tuple[np.ndarray, np.ndarray]:
+def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     """Measure what is left of each sphere on the boundary of the union.
-
-    Parameters
-    ----------
-    centers : (k, 3) float array
-    radii : (k,) float array
-        No two balls equal.
-    power : PowerTriangulation
-    boundary : SphereBoundary
-        Both of the same balls.
 
     Returns
     -------
@@ -147,17 +104,13 @@ def patch_areas(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from polyskel_lite.polyballs.power import power_triangulation
-    >>> from polyskel_lite.polyballs.spheres import sphere_boundary
-    >>> centers, radii = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)
-    >>> power = power_triangulation(centers, radii)
-    >>> areas, normals = patch_areas(centers, radii, power, sphere_boundary(centers, radii, power))
+    >>> two = BallUnion(np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2))
+    >>> areas, normals = patch_areas(two)
     >>> (areas / np.pi).round(12).tolist(), (normals[:, 0] / np.pi).round(12).tolist()
     ([3.0, 3.0], [-0.75, 0.75])
     """
-    count = len(radii)
-    covered = caps(centers, radii, power)
+    count = len(union.radii)
+    covered = caps(union)
     row, start, end = _arcs(covered)
     ball = _balls(covered)[row]
     x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
@@ -184,13 +137,13 @@ def patch_areas(
     share[(free < 0.5) & (share > (1 - _CLOSE) * _WHOLE)] -= _WHOLE
     share[(free > 0.5) & (share < _CLOSE * _WHOLE)] += _WHOLE
     share = np.clip(share, 0, _WHOLE)
-    share[(np.diff(covered.first) == 0) & ~boundary.exposed] = 0
-    return share * radii**2, normals * (radii**2 / 2)[:, None]
+    share[(np.diff(covered.first) == 0) & ~union.exposed] = 0
+    return share * union.radii**2, normals * (union.radii**2 / 2)[:, None]
 
 
 def _balls(covered: Caps) -> np.ndarray:
     """The sphere of each cap."""
-    return np.repeat(np.arange(len(covered.first) - 1), np.diff(covered.first))
+    return spread_out(np.diff(covered.first))[0]
 
 
 def _arcs(covered: Caps) -> Arcs:
@@ -201,9 +154,8 @@ def _arcs(covered: Caps) -> Arcs:
     """
     degree = np.diff(covered.first)
     ball = _balls(covered)
-    row = np.repeat(np.arange(len(ball)), degree[ball])
-    begin = np.cumsum(degree[ball]) - degree[ball]
-    other = np.arange(len(row)) - begin[row] + covered.first[ball[row]]
+    row, other = spread_out(degree[ball])
+    other += covered.first[ball[row]]
     row, other = row[row != other], other[row != other]
     x, y, axis = frames(covered.axes).swapaxes(0, 1)
     s = np.sqrt(np.maximum(1 - covered.heights**2, 0))
@@ -223,8 +175,7 @@ def _arcs(covered: Caps) -> Arcs:
     hidden[row[inside]] = True
     some = ~(inside | outside) & ~hidden[row]
     row, across, excess, u, v = row[some], across[some], excess[some], u[some], v[some]
-    half = 2 * np.arctan2(np.sqrt(across - excess), np.sqrt(across + excess))
-    covers = Covers(row, np.arctan2(v, u) - half, 2 * half, np.zeros(len(row)))
+    covers = Covers.about(row, u, v, across - excess, across + excess, np.zeros(len(row)))
     return uncovered(covers, np.flatnonzero(~hidden))[0]
 
 

@@ -1,0 +1,128 @@
+"""What is known about a union of balls: its power diagram and what is on its boundary, each found once.
+
+Some balls are copies of others, and squaring coordinates far from 0 loses digits. So whatever measures, draws
+or skeletonizes a union of balls starts from a `BallUnion`, which leaves out copies and moves the middle to 0.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from .discs import DiscBoundary, disc_boundary
+from .generating import distinct
+from .incidence import Incidence
+from .lost_balls import verified_boundary
+from .pairs import pair_bound
+from .power import PowerTriangulation, power_triangulation
+from .spheres import SphereBoundary
+
+# Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
+# discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
+_PAIRS = 10_000_000
+
+
+class BallUnion:
+    """Different balls of the plane or of space, seen from their middle, and the boundary of their union.
+
+    Parameters
+    ----------
+    centers : (n, N) float array
+        Where the balls stand, in any unit of length, which is then that of everything below.
+    radii : (n,) float array
+        Positive.
+
+    Attributes
+    ----------
+    rows : (k,) int array
+        The balls that are not copies of ones before them, sorted; only these count from here on.
+    origin : (N,) float array
+        The middle of the balls, which is taken off all coordinates.
+    centers : (k, N) float array
+    radii : (k,) float array
+
+    Examples
+    --------
+    >>> twice = BallUnion(np.array([(4.0, 0, 0), (5, 0, 0), (4, 0, 0)]), np.ones(3))
+    >>> twice.rows.tolist(), twice.origin.tolist(), twice.centers[:, 0].tolist()
+    ([0, 1], [4.5, 0.0, 0.0], [-0.5, 0.5])
+    """
+
+    def __init__(self, centers: np.ndarray, radii: np.ndarray):
+        self.rows = distinct(centers, radii)
+        self.origin = (centers.min(axis=0) + centers.max(axis=0)) / 2
+        self.radii = radii[self.rows]
+        self._places = centers[self.rows]
+        self.centers = self._places - self.origin
+
+    @property
+    def in_space(self) -> bool:
+        """Whether these are balls in space, not discs."""
+        return len(self.origin) == 3
+
+    @property
+    def power(self) -> PowerTriangulation:
+        """The dual of the power diagram."""
+        return self._verified[0] if self.in_space else self._triangulated
+
+    @cached_property
+    def boundary(self) -> DiscBoundary | SphereBoundary:
+        """Arcs and corners of the boundary."""
+        # Found where the balls stand, because their rounding there says how far crossings are believed.
+        if self.in_space:
+            found = self._verified[1]
+            circles = found.circles._replace(centers=found.circles.centers - self.origin)
+            found = found._replace(circles=circles)
+        else:
+            crowded = pair_bound(self._places, self.radii) > _PAIRS
+            found = disc_boundary(self._places, self.radii, self.power if crowded else None)
+        return found._replace(corners=found.corners - self.origin)
+
+    @cached_property
+    def exposed(self) -> np.ndarray:
+        """Which balls have a piece of their sphere on the boundary, (k,) bool array."""
+        if self.in_space:
+            return self.boundary.exposed
+        return np.isin(np.arange(len(self.radii)), self.boundary.arcs.ball)
+
+    def crossing(self, bare: bool = False) -> np.ndarray:
+        """The pairs of balls whose spheres meet on the boundary, (m, 2) int array.
+
+        Bare ones meet nowhere else: all of the circle is on the boundary, or in the plane both points are.
+
+        Examples
+        --------
+        >>> three = BallUnion(np.array([(0.0, 0), (1, 0), (0.5, 0.8)]), np.ones(3))
+        >>> three.crossing().tolist(), len(three.crossing(bare=True))
+        ([[0, 1], [0, 2], [1, 2]], 0)
+        """
+        corners = self.boundary.corners
+        if self.in_space:
+            arcs, pairs = self.boundary.arcs, self.boundary.circles.pairs
+            return pairs[np.isin(np.arange(len(pairs)), arcs.ball[arcs.whole])] if bare else pairs
+        if not len(corners):
+            return np.zeros((0, 2), dtype=np.int64)
+        pairs = Incidence(corners, self.centers, self.radii, self.origin).pairs()
+        pairs, times = np.unique(pairs, axis=0, return_counts=True)
+        return pairs[times >= 2] if bare else pairs
+
+    def as_given(self, pairs: np.ndarray) -> np.ndarray:
+        """Pairs of these balls by their numbers before copies were left out: i < j, sorted, (m, 2).
+
+        Examples
+        --------
+        >>> twice = BallUnion(np.array([(0.0, 0), (0, 0), (1, 0)]), np.ones(3))
+        >>> twice.as_given(np.array([(1, 0)])).tolist()
+        [[0, 2]]
+        """
+        pairs = np.sort(self.rows[pairs], axis=1).reshape(-1, 2)
+        return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+    @cached_property
+    def _triangulated(self) -> PowerTriangulation:
+        return power_triangulation(self.centers, self.radii)
+
+    @cached_property
+    def _verified(self) -> tuple[PowerTriangulation, SphereBoundary]:
+        return verified_boundary(self._places, self.radii, self._triangulated)
