@@ -83,7 +83,8 @@ def _directed(a: np.ndarray, b: np.ndarray, step: float) -> float:
         best = max(best, float(distance.max()))
         corners = facet_distance(a.reshape(-1, n), np.repeat(b[facet], n, axis=0)).reshape(-1, n)
         a = halved(a[corners.max(axis=1) > best + step])
-    return best
+    # A point between two corners is rounded, and so is its distance to what it lies on.
+    return best if best > 16 * np.finfo(float).eps * np.abs(b).max() else 0.0
 
 
 def _sets(A, B, step):
