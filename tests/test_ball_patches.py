@@ -17,7 +17,6 @@ from scipy.spatial.transform import Rotation
 import polyskel_lite as psl
 from polyskel_lite.errors import InputError
 from polyskel_lite.polyballs.distance import distance_to_boundary
-from polyskel_lite.polyballs.sphere_caps import caps
 from polyskel_lite.polyballs.sphere_patches import _fan, _icosphere, patches
 from polyskel_lite.polyballs.union import BallUnion
 from polyskel_lite.polyballs.volumes import patch_areas, surface_area, volume
@@ -406,7 +405,7 @@ def test_spheres_that_surround_a_common_point():
 @pytest.mark.parametrize("number", of_all_families(3))
 def test_points_of_a_sphere_in_no_cap_are_on_the_boundary(number):
     Y = family_member(number)
-    covered = caps(Y.union)
+    covered = Y.union.caps
     u = np.random.default_rng(number).standard_normal((500, 3))
     u /= np.linalg.norm(u, axis=1)[:, None]
     for ball in np.flatnonzero(Y.union.exposed):

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 
 from polyskel_lite import InputError, Shape, conform, datasets
-from polyskel_lite.polyballs.arcs import _wrapped
-from polyskel_lite.polyballs.discs import disc_boundary
+from polyskel_lite.polyballs.discs import _wrapped, disc_boundary
 from polyskel_lite.polyballs.polyball import Polyball
 
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..checks import as_points
 from ..errors import InputError
-from .arcs import Arcs
-from .discs import distance_to_arcs
+from .discs import Arcs, distance_to_arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
 from .union import BallUnion

@@ -10,9 +10,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .arcs import TURN, Arcs
+from .discs import TURN, Arcs
 from .pairs import octaves, rounding, spread_out
-from .sphere_caps import caps
 from .spheres import SphereBoundary
 from .union import BallUnion
 
@@ -110,7 +109,7 @@ def _ahead(points, circles, arcs: Arcs) -> np.ndarray:
 
 def _to_patches(points, union: BallUnion, best) -> None:
     """Lower `best` to the distance of the nearest point straight ahead of a centre that is in no cap."""
-    centers, radii, covered = union.centers, union.radii, caps(union)
+    centers, radii, covered = union.centers, union.radii, union.caps
     balls = np.flatnonzero(union.exposed)
     size = np.diff(covered.first)
     # A foot on the edge of a cap is left to the arc there, if there is one: where many edges meet in a point

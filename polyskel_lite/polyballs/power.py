@@ -37,7 +37,7 @@ class PowerTriangulation(NamedTuple):
         k: indices from k on are ghosts.
     found : tuple of (p, 2) and (q, 3) int arrays
         Sorted pairs and triples to look at besides, because Qhull, which merges what is flat within rounding,
-        may have lost them; see `polyskel_lite.polyballs.lost_balls.verified_boundary`.
+        may have lost them; see `polyskel_lite.polyballs.spheres.verified_boundary`.
     """
 
     points: np.ndarray

@@ -19,9 +19,8 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ..errors import InputError
 from ..exact import components
 from .pairs import spread_out, units
-from .sphere_caps import Caps, caps
 from .spheres import SphereBoundary
-from .union import BallUnion
+from .union import BallUnion, Caps
 
 _EDGE = np.arctan(2)  # of the icosahedron in the unit sphere, as an angle
 _COARSEST = 2  # edges of the icosahedron are cut into so many at least: 42 vertices on a whole sphere
@@ -153,7 +152,7 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
 
 def _hulls(union: BallUnion, parts, rims: _Rims) -> _Hulls:
     """Triangulate each sphere with its arcs' vertices and the vertices of an icosphere between them."""
-    centers, radii, balls, covered = union.centers, union.radii, np.flatnonzero(union.exposed), caps(union)
+    centers, radii, balls, covered = union.centers, union.radii, np.flatnonzero(union.exposed), union.caps
     vertices, names, triangles, edges = [rims.vertices], [], [], []
     number, copies = len(rims.vertices), 0
     for ball in balls:

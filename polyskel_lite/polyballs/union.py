@@ -7,20 +7,38 @@ or skeletonizes a union of balls starts from a `BallUnion`, which leaves out cop
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from .discs import DiscBoundary, disc_boundary
 from .generating import distinct
 from .incidence import Incidence
-from .lost_balls import verified_boundary
-from .pairs import pair_bound
+from .pairs import circle_offset, lengths, pair_bound, relations
 from .power import PowerTriangulation, power_triangulation
-from .spheres import SphereBoundary
+from .spheres import SphereBoundary, verified_boundary
 
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
 # discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
 _PAIRS = 10_000_000
+
+
+class Caps(NamedTuple):
+    """Caps of all spheres, sphere by sphere, the largest one first.
+
+    Attributes
+    ----------
+    first : (k + 1,) int array
+        Rows ``first[i]`` to ``first[i + 1]`` are the caps of sphere i.
+    axes : (m, 3) float array
+        Unit vectors to the middles of the caps.
+    heights : (m,) float array
+        p is in the cap if (p - c) · axis > height · radius.
+    """
+
+    first: np.ndarray
+    axes: np.ndarray
+    heights: np.ndarray
 
 
 class BallUnion:
@@ -85,6 +103,29 @@ class BallUnion:
         if self.in_space:
             return self.boundary.exposed
         return np.isin(np.arange(len(self.radii)), self.boundary.arcs.ball)
+
+    @cached_property
+    def caps(self) -> Caps:
+        """The part of each sphere that other balls cover: a cap for each ball whose sphere crosses it.
+
+        A point of a sphere is on the boundary iff it is in no cap. Only power neighbours are asked, because
+        what is left of a sphere is the part in its own power cell. Balls that touch, and balls that stick out
+        of another one by nothing but rounding, make no cap; the arcs of the boundary ignore them as well.
+
+        Examples
+        --------
+        >>> found = BallUnion(np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2)).caps
+        >>> found.first.tolist(), found.heights.tolist()
+        ([0, 1, 2], [0.5, 0.5])
+        """
+        crossing = relations(self.centers, self.radii, *self.power.faces(2).T)[1]
+        i, j = np.concatenate([crossing, crossing[:, ::-1]]).T
+        across = self.centers[j] - self.centers[i]
+        d = lengths(across)
+        heights = circle_offset(d, self.radii[i], self.radii[j]) / self.radii[i]
+        order = np.lexsort((heights, i))
+        first = np.searchsorted(i[order], np.arange(len(self.radii) + 1))
+        return Caps(first, (across / d[:, None])[order], heights[order])
 
     def crossing(self, bare: bool = False) -> np.ndarray:
         """The pairs of balls whose spheres meet on the boundary, (m, 2) int array.

@@ -28,10 +28,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arcs import Arcs, Covers, uncovered
+from .discs import Arcs, Covers, uncovered
 from .pairs import frames, spread_out
-from .sphere_caps import Caps, caps
-from .union import BallUnion
+from .union import BallUnion, Caps
 
 _WHOLE = 4 * np.pi
 _TOUCH = 1e-12  # circles this near to each other, on the unit sphere, touch or are the same
@@ -110,7 +109,7 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     ([3.0, 3.0], [-0.75, 0.75])
     """
     count = len(union.radii)
-    covered = caps(union)
+    covered = union.caps
     row, start, end = _arcs(covered)
     ball = _balls(covered)[row]
     x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
