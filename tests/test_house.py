@@ -1,6 +1,7 @@
 """The rules of the house: who may import whom, what a room shows, how long a module is."""
 
 import ast
+import json
 import re
 import runpy
 from pathlib import Path
@@ -117,3 +118,12 @@ def test_a_room_is_small_and_has_a_face(room):
     }
     assert len(below) <= 14
     assert "\n\n" in ast.get_docstring(ast.parse(SOURCES[room])), "what the room is for, then what is in it"
+
+
+@pytest.mark.parametrize("chapter", sorted((ROOT / "notebooks").glob("*.ipynb")), ids=lambda path: path.stem)
+def test_chapters_import_from_the_front_door_or_a_face(chapter):
+    cells = json.loads(chapter.read_text(encoding="utf-8"))["cells"]
+    code = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code")
+    inner = [name for name in SOURCES if "." in name and not name.startswith("explore.skeleton_viewer.")]
+    assert set(re.findall(r"polyskel_lite\.([\w.]+) import", code)) <= set(HOUSE["ROOMS"])
+    assert not [name for name in inner if re.search(rf"\b{re.escape(name)}\.", code)]

@@ -17,9 +17,10 @@ Examples
 
 from .definitions import figure_1, figure_2, figure_2_3d
 from .methods import figure_3, figure_4, figure_5, regular_shape
-from .polyballs import figure_11, figure_12
+from .polyballs import CENTERS_11, RADII_11, contacts, draw_with_skeleton, examples_12, figure_11, figure_12
 from .proof import figure_13
 from .registry import FIGURES, write_figures
-from .removals import figure_6, figure_7
+from .removals import OCTAHEDRON, figure_6, figure_7
 from .results import figure_10
 from .simplification import figure_8, figure_9
+from .solids import draw_apart, draw_solid, helix, orange, paint, simplex_of, star
