@@ -4,8 +4,8 @@
     python benchmarks/polyballs.py --largest 1000 --out somewhere
 
 Times are medians of three runs, Delaunay and skeleton in turn. The checks are those of
-`tests/test_polyball_skeletons.py` with their numbers: maximal balls grown by brute force in the random
-polyballs of `tests/medial_oracle.py`, and points sampled on the skeletons.
+`tests/polyballs/test_polyball_skeletons.py` with their numbers (`tests/truth/cases.py`): maximal balls grown
+by brute force in the random polyballs of `tests/truth/medial.py`, and points sampled on the skeletons.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def timed(name: str, n: int, N: int) -> dict:
 def checked(N: int, polyballs: int) -> dict:
     """One row of checks: random polyballs against the brute-force truth."""
     sys.path.insert(0, str(HERE.parent / "tests"))
-    from test_polyball_skeletons import BLUNT, TOLERANCE, away, case, samples_of
+    from truth.cases import BLUNT, TOLERANCE, away, case, samples_of
 
     counts = dict.fromkeys(CHECKS, 0) | {"dimension": N, "polyballs": polyballs}
     for number in range(polyballs):

@@ -22,8 +22,8 @@ ROOT = Path(__file__).resolve().parent.parent
 BESIDE = [
     "notebooks/claims.toml",
     "polyskel_lite/**/*.py",
-    "tests/test_claims.py",
     "tests/claims/*.py",
+    "tests/truth/*.py",
     "benchmarks/*",
 ]
 

@@ -17,10 +17,11 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from accessibility import findings
 
 import polyskel_lite as psl
 from polyskel_lite import explore
+
+from .accessibility import findings
 
 pytestmark = pytest.mark.xdist_group("jupyterlab")  # one server
 TOKEN = secrets.token_hex(16)

@@ -1,15 +1,16 @@
 """The browser site of `make lite` in Chromium: JupyterLab opens, lists the chapters and shows one.
 
 Its kernel is Pyodide from Pyodide's own address, which a test machine need not reach: every request to
-another host is refused here, so no cell runs. tests/test_lite.py runs the library in Pyodide itself.
+another host is refused here, so no cell runs. tests/project/test_lite.py runs the library in Pyodide itself.
 """
 
 import subprocess
 import sys
 
 import pytest
-from conftest import PATIENCE, ROOT, served
 from jupyterlite_pyodide_kernel.constants import PYODIDE_CDN_URL
+
+from .conftest import PATIENCE, ROOT, served
 
 pytestmark = pytest.mark.xdist_group("lite")
 

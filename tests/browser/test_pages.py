@@ -4,8 +4,9 @@ Colours do not depend on the width nor the structure on the colours, so axe's ru
 """
 
 import pytest
-from accessibility import COLOURS, STRUCTURE, findings
-from conftest import pages
+
+from .accessibility import COLOURS, STRUCTURE, findings
+from .conftest import pages
 
 # What a reader would miss: pictures that did not come or that say nothing, formulas that were not set.
 LOST = """() => {

@@ -7,11 +7,12 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
-from accessibility import STRUCTURE, findings
-from conftest import ROOT, pages
 
 import polyskel_lite as psl
 from polyskel_lite import explore
+
+from .accessibility import STRUCTURE, findings
+from .conftest import ROOT, pages
 
 # What the graphics card is told to draw: how many points and lines the latest call of each kind had.
 SPY = """

@@ -1,7 +1,7 @@
 """Every claim of the register `notebooks/claims.toml`, checked again from data.
 
 ``CHECKS[id]()`` computes and returns the verdict of one claim, and
-``pytest "tests/test_claims.py::test_verdict[id]"`` compares it with the register.
+``pytest "tests/claims/test_register.py::test_verdict[id]"`` compares it with the register.
 """
 
 from . import appendix_a, comparison, complexity, graphs, introduction, methods, polyballs, proof, section4

@@ -1,6 +1,6 @@
 """Appendix A: unions of balls, their structure and their skeletons (Theorems 3 and 4).
 
-Maximal balls are grown, and distances measured, by `medial_oracle`, which knows no theorem about skeletons.
+Maximal balls are grown, and distances measured, by `truth.medial`, which knows no theorem about skeletons.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from itertools import combinations
 from math import comb
 
 import numpy as np
-from medial_oracle import Union, distance_to_complex, lengths, random_polyball
 from scipy.spatial import cKDTree
+from truth.medial import Union, distance_to_complex, lengths, random_polyball
 
 import polyskel_lite as psl
 

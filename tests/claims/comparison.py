@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-from oracle import circumcenter, dot, location, segment_side
+from truth.rational import circumcenter, dot, location, segment_side
 
 import polyskel_lite as psl
 
@@ -139,7 +139,7 @@ def theorem_2(shape: psl.Shape, side: int, rays: bool = True) -> bool:
 
 @check("theorem-1")
 def first_theorem():
-    """50 random regions here, 1,000 in tests/test_theorems.py; with the printed rule circles may touch."""
+    """50 random regions here, 1,000 in test_theorems.py; with the printed rule circles may touch."""
     regions = gabriel_regions()
     assert all(map(strictly_gabriel_boundary, regions))
     assert any(s.betti()[0] > 1 for s in regions)
@@ -162,7 +162,7 @@ def _closed_theorem_1(shape: psl.Shape) -> bool:
 
 @check("theorem-2")
 def second_theorem():
-    """50 random regions here, 1,000 in tests/test_theorems.py. The printed rule fails on the hexagon."""
+    """50 random regions here, 1,000 in test_theorems.py. The printed rule fails on the hexagon."""
     strict = all(theorem_2(shape, 1) for shape in gabriel_regions())
     return verdict(printed=strict and not _hexagon_gains(), repaired=strict)
 

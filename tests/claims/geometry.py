@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache
 
 import numpy as np
-from oracle import (
+from truth.rational import (
     dot,
     grid_region,
     location,

@@ -7,7 +7,7 @@ from functools import cache
 from itertools import combinations, pairwise
 
 import numpy as np
-from oracle import circumcenter, dot, rational, strictly_gabriel, turn, voronoi_elements
+from truth.rational import circumcenter, dot, rational, strictly_gabriel, turn, voronoi_elements
 
 import polyskel_lite as psl
 

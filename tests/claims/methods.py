@@ -6,7 +6,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from oracle import circumcenter, location, rational
+from truth.rational import circumcenter, location, rational
 
 import polyskel_lite as psl
 

@@ -6,7 +6,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from medial_oracle import Union, distance_to_complex, random_polyball
+from truth.medial import Union, distance_to_complex, random_polyball
 
 import polyskel_lite as psl
 from polyskel_lite.figures.solids import orange

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import combinations
 
-from oracle import circumcenter, dot, location, segment_side, turn, voronoi_elements
+from truth.rational import circumcenter, dot, location, segment_side, turn, voronoi_elements
 
 from .geometry import (
     RIGHT_TRIANGLE,

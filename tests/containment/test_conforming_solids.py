@@ -1,28 +1,11 @@
 """Solids: implicit surfaces, and Betti numbers that agree between shape, Delaunay shape and Sk0."""
 
-from functools import cache
-
 import numpy as np
 import pytest
+from truth.solids import FIELDS, random_solids, solid
 
 import polyskel_lite as psl
 from polyskel_lite import InputError, ShapeError, implicit
-
-FIELDS = {
-    "ball": (implicit.ball(), 200, (1, 0, 0)),
-    "torus": (implicit.torus(), 400, (1, 1, 0)),
-    "double torus": (implicit.double_torus(), 700, (1, 2, 0)),
-    "hollow ball": (implicit.hollow_ball(), 400, (1, 0, 1)),
-    "trefoil": (implicit.trefoil(), 800, (1, 1, 0)),
-    "capsule": (implicit.capsule(), 200, (1, 0, 0)),
-    "tetrapod": (implicit.tetrapod(), 500, (1, 0, 0)),
-}
-
-
-@cache
-def solid(name: str) -> psl.Shape:
-    field, n, _ = FIELDS[name]
-    return implicit.solid(field, n)
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -129,21 +112,6 @@ def test_conform_to_gabriel():
     shape = psl.datasets.load("metacarpal")
     assert not psl.delaunay_shape(shape).is_gabriel()
     assert psl.delaunay_shape(psl.conform(shape, to="gabriel")).is_gabriel()
-
-
-def random_solids(count):
-    """Pieces of random Delaunay tessellations that are manifold: jagged, of any topology."""
-    random = np.random.default_rng(11)
-    while count:
-        points = random.normal(size=(14, 3))
-        tessellation = psl.delaunay(points)
-        inner = random.random(len(tessellation.simplices)) < 0.9
-        try:
-            shape = psl.DelaunayShape(tessellation, inner).to_shape()
-        except psl.ShapeError:
-            continue
-        count -= 1
-        yield psl.Shape(shape.points * 10 ** random.uniform(-1.5, 0, 3), shape.facets)
 
 
 def test_jagged_solids_are_repaired_or_refused():

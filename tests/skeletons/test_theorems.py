@@ -4,7 +4,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from oracle import circumcenter, grid_region, location, rational, segment_side, sk2_oracle, strictly_gabriel
+from truth.rational import (
+    circumcenter,
+    grid_region,
+    location,
+    rational,
+    segment_side,
+    sk2_oracle,
+    strictly_gabriel,
+)
 
 import polyskel_lite as psl
 

@@ -12,7 +12,7 @@ import pytest
 import polyskel_lite as psl
 from polyskel_lite import explore, figures
 
-NOTEBOOKS = Path(__file__).resolve().parent.parent / "notebooks"
+NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
 
 
 def assert_said(chapter, *sentences):

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from oracle import grid_region, rational, strictly_gabriel
+from truth.rational import grid_region, rational, strictly_gabriel
 
 import polyskel_lite as psl
 from polyskel_lite.containment.conforming import conform_stages

@@ -19,7 +19,7 @@ pytest.importorskip("anywidget", reason="the viewer needs the extra lab")
 from polyskel_lite import explore
 from polyskel_lite.explore.skeleton_viewer import pack
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 

@@ -157,9 +157,9 @@ def test_stored_pictures_are_small_and_none_is_left_over():
 def test_stored_pictures_belong_to_the_locked_matplotlib():
     """After an upgrade: make the pictures anew, look at them, and change BASELINE_VERSION.
 
-    ``pytest tests/test_figures.py --mpl-generate-path=tests/baseline`` makes them.
+    ``pytest tests/figures/test_pictures.py --mpl-generate-path=tests/figures/baseline`` makes them.
     """
-    lock = Path(__file__).parents[1] / "requirements.lock"
+    lock = Path(__file__).parents[2] / "requirements.lock"
     (version,) = re.findall(r"^matplotlib==(\S+)", lock.read_text(encoding="utf-8"), flags=re.MULTILINE)
     assert version.startswith(BASELINE_VERSION + ".")
 

@@ -2,12 +2,12 @@
 
 import time
 from fractions import Fraction
-from itertools import product
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from truth.meshes import CUBE, CUBE_FACES, cube, inward, moved, together
 
 from polyskel_lite import DuplicatePointError, InputError, Shape, ShapeError
 from polyskel_lite.exact.boxes import self_overlaps
@@ -18,35 +18,6 @@ from polyskel_lite.exact.triangles import (
     point_triangle_distance,
     segment_meets_triangle,
 )
-
-CUBE = np.array(list(product((0, 1), repeat=3)), dtype=float)
-# Two outward triangles for each side of the cube.
-CUBE_FACES = np.array(
-    [
-        [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1)],
-        [(2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)],
-    ]
-).reshape(-1, 3)
-
-
-def cube(size=1.0, low=0.0) -> tuple[np.ndarray, np.ndarray]:
-    return CUBE * size + low, CUBE_FACES
-
-
-def moved(*by, size=1.0) -> tuple[np.ndarray, np.ndarray]:
-    return CUBE * size + np.array(by), CUBE_FACES
-
-
-def together(*meshes) -> tuple[np.ndarray, np.ndarray]:
-    first = np.cumsum([0, *(len(points) for points, _ in meshes)])
-    return (
-        np.concatenate([points for points, _ in meshes]),
-        np.concatenate([faces + k for (_, faces), k in zip(meshes, first[:-1], strict=True)]),
-    )
-
-
-def inward(mesh):
-    return mesh[0], mesh[1][:, [0, 2, 1]]
 
 
 def test_measures_of_a_cube():

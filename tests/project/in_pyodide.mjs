@@ -1,4 +1,4 @@
-// node tests/in_pyodide.mjs PYODIDE WHEEL SCRIPT: runs a Python script on the library's wheel in Pyodide.
+// node tests/project/in_pyodide.mjs PYODIDE WHEEL SCRIPT: runs a Python script on the library's wheel in Pyodide.
 import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";

@@ -14,7 +14,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 PYODIDE = ROOT / "_build" / "pyodide"
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
@@ -142,7 +142,9 @@ def in_pyodide(request, tmp_path):
     def run_script(text: str) -> dict:
         script = tmp_path / "script.py"
         script.write_text(text, encoding="utf-8")
-        return found(run(node, ROOT / "tests" / "in_pyodide.mjs", runtime, wheel, script, timeout=600))
+        return found(
+            run(node, Path(__file__).with_name("in_pyodide.mjs"), runtime, wheel, script, timeout=600)
+        )
 
     return run_script
 

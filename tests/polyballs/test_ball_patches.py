@@ -10,9 +10,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from medial_oracle import FAMILIES, Union, random_polyball
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
+from truth.medial import FAMILIES, Union, random_polyball
 
 import polyskel_lite as psl
 from polyskel_lite.errors import InputError
@@ -443,7 +443,7 @@ def queries_for(Y, rng, count=200):
 
 @pytest.mark.parametrize("number", of_all_families(10))
 def test_distance_against_all_candidates(number):
-    """`medial_oracle.Union` looks at every circle and crossing of three spheres, and at no power diagram."""
+    """`truth.medial.Union` looks at every circle and crossing of three spheres, and at no power diagram."""
     Y = family_member(number)
     rng = np.random.default_rng(number)
     queries = queries_for(Y, rng)

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from oracle import grid_region, rational, sk2_oracle
+from truth.rational import grid_region, rational, sk2_oracle
 
 import polyskel_lite as psl
 

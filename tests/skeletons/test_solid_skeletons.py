@@ -4,8 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from test_meshes import cube, together
-from test_solids import FIELDS, random_solids, solid
+from truth.meshes import cube, together
+from truth.solids import FIELDS, random_solids, solid
 
 import polyskel_lite as psl
 from polyskel_lite import InputError

@@ -12,7 +12,7 @@ import pytest
 
 import polyskel_lite as psl
 
-FOLDER = Path(__file__).resolve().parent.parent / "benchmarks"
+FOLDER = Path(__file__).resolve().parents[2] / "benchmarks"
 
 
 @pytest.fixture

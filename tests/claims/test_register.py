@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from claims import CHECKS, VERDICTS
 
 import polyskel_lite as psl
+from claims import CHECKS, VERDICTS
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 CLAIMS = tomllib.loads((ROOT / "notebooks" / "claims.toml").read_text(encoding="utf-8"))["claim"]
 FIELDS = (
     "id",

@@ -1,25 +1,18 @@
 """Appendix A against the truth: skeletons of random polyballs, grown maximal balls, named counterexamples.
 
-`medial_oracle` knows no theorem. It grows maximal balls in unions of balls, measures distances to the
+`truth.medial` knows no theorem. It grows maximal balls in unions of balls, measures distances to the
 boundary and counts holes by brute force; here its answers are compared with the library's, on `PER_FAMILY`
 polyballs of each of eleven families in the plane and as many in space.
-
-Tolerances are shares of the size of the polyball (radius of a ball around it). `TOLERANCE` is what both sides
-can lose where circles cross at ordinary angles: corners are known to 1e-12 of the size or better (corners
-within 1e-12 / sine of the crossing angle are one corner to the library), and a centre found from corners that
-are seen 1/10 rad or more apart amplifies that some 200 times. Where contacts are closer together, the oracle
-reports its own error, and ten times that is allowed. Balls whose error is above `BLUNT` say nothing; fewer
-than one in twenty may be left out so.
 """
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import combinations
 
 import numpy as np
 import pytest
-from medial_oracle import (
+from truth.cases import BLUNT, PER_FAMILY, TOLERANCE, away, cases, samples_of
+from truth.medial import (
     FAMILIES,
     Union,
     common_power,
@@ -32,43 +25,8 @@ from medial_oracle import (
 
 import polyskel_lite as psl
 
-PER_FAMILY = 40
-TOLERANCE = 1e-9
-BLUNT = 1e-6
-
 each_family = pytest.mark.parametrize("family", range(len(FAMILIES)), ids=[f.__name__ for f in FAMILIES])
 each_dimension = pytest.mark.parametrize("N", [2, 3])
-
-
-class Case:
-    """Polyball `number` of dimension N with the oracle's and the library's view of it."""
-
-    def __init__(self, number, N):
-        self.name = f"polyball {number} in {N}D"
-        _, self.centers, self.radii = random_polyball(number, N)
-        self.truth = Union(self.centers, self.radii, seed=number)
-        self.size = self.truth.size
-        self.Y = psl.Polyball(self.centers, self.radii)
-        self.skeleton = self.Y.skeleton()
-        self.rng = np.random.default_rng([number, N, 1])
-
-
-@cache
-def case(number, N) -> Case:
-    return Case(number, N)
-
-
-def cases(family, N, count=PER_FAMILY):
-    return [case(number, N) for number in range(family, count * len(FAMILIES), len(FAMILIES))]
-
-
-def away(points, skeleton):
-    """Distance from points to a skeleton of the library."""
-    return distance_to_complex(points, skeleton.vertices, skeleton.edges, skeleton.polygons)
-
-
-def samples_of(skeleton, rng, **numbers):
-    return sample_complex(rng, skeleton.vertices, skeleton.edges, skeleton.polygons, **numbers)
 
 
 def farthest(a, b) -> float:

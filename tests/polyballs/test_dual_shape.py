@@ -1,6 +1,6 @@
 """Skeletons of many balls against their dual shape: both have the homotopy type of the union.
 
-The brute-force truth of `medial_oracle` knows some twenty balls. The dual shape (Edelsbrunner 1995) knows a
+The brute-force truth of `truth.medial` knows some twenty balls. The dual shape (Edelsbrunner 1995) knows a
 thousand: the simplices of the power triangulation whose balls have a common point, found from the definition.
 """
 

@@ -6,7 +6,7 @@ import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 CHAPTER = {
     "cells": [{"cell_type": "markdown", "id": "title", "metadata": {}, "source": "# One\n\nText."}],
     "metadata": {
