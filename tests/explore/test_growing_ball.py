@@ -7,7 +7,6 @@ import polyskel_lite as psl
 from polyskel_lite import explore
 
 HORSE = psl.datasets.load("horse")
-
 FRAME = psl.Shape.from_rings([[(0, 0), (6, 0), (6, 6), (0, 6)], [(2, 2), (4, 2), (4, 4), (2, 4)]])
 
 
