@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from truth.medial import FAMILIES, Union, random_polyball
+from truth.medial import Union
+from truth.polyballs import FAMILIES, random_polyball
 
 import polyskel_lite as psl
 from polyskel_lite.errors import InputError

@@ -12,16 +12,10 @@ from itertools import combinations
 import numpy as np
 import pytest
 from truth.cases import BLUNT, PER_FAMILY, TOLERANCE, away, cases, samples_of
-from truth.medial import (
-    FAMILIES,
-    Union,
-    common_power,
-    components,
-    distance_to_complex,
-    lengths,
-    random_polyball,
-    sample_complex,
-)
+from truth.complexes import distance_to_complex, lengths, sample_complex
+from truth.medial import Union
+from truth.nerves import common_power, components
+from truth.polyballs import FAMILIES, random_polyball
 
 import polyskel_lite as psl
 

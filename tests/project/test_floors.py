@@ -1,4 +1,4 @@
-"""Mathematics never loads drawing, drawing never loads widgets."""
+"""Mathematics never loads drawing, drawing never loads widgets, oracles never load the library."""
 
 import ast
 import pkgutil
@@ -56,3 +56,16 @@ def test_mathematics_never_imports_drawing_and_drawing_never_imports_widgets():
             assert not names & {"matplotlib", "drawing", "figures", "explore"}, path
         if kind != "explore":
             assert not names & {"explore", "ipywidgets", "IPython", "anywidget"}, path
+
+
+def test_oracles_import_nothing_of_the_library():
+    made_by_it = {"solids", "cases"}
+    for path in (ROOT / "tests" / "truth").glob("*.py"):
+        if path.stem not in made_by_it:
+            names = {part for name in imported(path) for part in name.split(".")}
+            assert not names & {"polyskel_lite", "claims", *made_by_it}, path
+
+
+def test_no_test_imports_another_one():
+    for path in (ROOT / "tests").rglob("test_*.py"):
+        assert not [name for name in imported(path) if re.search(r"(^|\.)test_", name)], path

@@ -16,7 +16,9 @@ import numpy as np
 
 import polyskel_lite as psl
 
-from .medial import FAMILIES, Union, distance_to_complex, random_polyball, sample_complex
+from .complexes import distance_to_complex, sample_complex
+from .medial import Union
+from .polyballs import FAMILIES, random_polyball
 
 PER_FAMILY = 40
 TOLERANCE = 1e-9
