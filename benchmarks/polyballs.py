@@ -5,7 +5,7 @@
 
 Times are medians of three runs, Delaunay and skeleton in turn. The checks are those of
 `tests/polyballs/test_polyball_skeletons.py` with their numbers (`tests/truth/cases.py`): maximal balls grown
-by brute force in the random polyballs of `tests/truth/medial.py`, and points sampled on the skeletons.
+by brute force in the random polyballs of `tests/truth/polyballs.py`, and points sampled on the skeletons.
 """
 
 from __future__ import annotations

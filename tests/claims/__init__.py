@@ -4,7 +4,20 @@
 ``pytest "tests/claims/test_register.py::test_verdict[id]"`` compares it with the register.
 """
 
-from . import appendix_a, comparison, complexity, graphs, introduction, methods, polyballs, proof, section4
+from . import (
+    appendix_a,
+    comparison,
+    complexity,
+    criteria,
+    graphs,
+    introduction,
+    methods,
+    polyballs,
+    proof,
+    removable,
+    results,
+    simplification,
+)
 from .registry import CHECKS, VERDICTS
 
 __all__ = [
@@ -13,10 +26,13 @@ __all__ = [
     "appendix_a",
     "comparison",
     "complexity",
+    "criteria",
     "graphs",
     "introduction",
     "methods",
     "polyballs",
     "proof",
-    "section4",
+    "removable",
+    "results",
+    "simplification",
 ]

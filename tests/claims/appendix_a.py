@@ -11,7 +11,9 @@ from math import comb
 
 import numpy as np
 from scipy.spatial import cKDTree
-from truth.medial import Union, distance_to_complex, lengths, random_polyball
+from truth.complexes import distance_to_complex, lengths
+from truth.medial import Union
+from truth.polyballs import random_polyball
 
 import polyskel_lite as psl
 

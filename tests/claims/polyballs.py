@@ -6,7 +6,9 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from truth.medial import Union, distance_to_complex, random_polyball
+from truth.complexes import distance_to_complex
+from truth.medial import Union
+from truth.polyballs import random_polyball
 
 import polyskel_lite as psl
 from polyskel_lite.figures.solids import orange

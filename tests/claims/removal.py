@@ -6,13 +6,18 @@ numbers (ranks of boundary matrices over two elements) follow from the names alo
 
 from __future__ import annotations
 
+import random
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable
+from functools import cache
 from itertools import combinations, pairwise
 
 import numpy as np
+from truth.solids import random_region
 
 import polyskel_lite as psl
+
+from .geometry import flower, gabriel_regions, ring
 
 Simplex = frozenset[int]
 
@@ -237,13 +242,6 @@ def simplify(region: Region, rule: Rule, threshold: float, choose=None, divide=N
             values[n] = rule(region, n, share)
 
 
-def random_region(seed: int, n: int = 2, points: int = 40, fill: float = 0.7) -> psl.DelaunayShape:
-    """Any set of Delaunay simplices: pinched, in pieces, with holes and cavities."""
-    rng = np.random.default_rng(seed)
-    t = psl.delaunay(rng.random((points, n)))
-    return psl.DelaunayShape(t, rng.random(len(t.simplices)) < fill)
-
-
 def torus(seed: int = 0) -> psl.DelaunayShape:
     """A solid torus from 45 samples: manifold, every sample on its boundary (seeds 0, 2, 3)."""
     rng = np.random.default_rng(seed)
@@ -272,3 +270,62 @@ def egg(seed: int = 0) -> psl.DelaunayShape:
     """The convex hull of 25 samples of an ellipsoid."""
     t = psl.delaunay(unit_vectors(seed, 25) * [1, 0.8, 0.6])
     return psl.DelaunayShape(t, np.ones(len(t.simplices), dtype=bool))
+
+
+THRESHOLDS = (0.5, 1.5, np.pi, 2 * np.pi, 50.0)
+RULES = {"branch": branch, "surface": surface, "wireframe": wireframe}
+
+
+@cache
+def solids() -> tuple[psl.DelaunayShape, ...]:
+    """A torus, a hollow ball and an egg: manifolds with every sample on the boundary."""
+    found = (torus(), hollow_ball(), egg())
+    for P in found:
+        region = Region.of(P)
+        assert region.is_manifold()
+        assert set().union(*region.alive) == set().union(*region.boundary())
+    return found
+
+
+@cache
+def polygons() -> tuple[psl.DelaunayShape, ...]:
+    return tuple(psl.delaunay_shape(s) for s in gabriel_regions()[:20])
+
+
+@cache
+def noisy_flower(noise: float, petals: int = 5, n: int = 300) -> psl.Shape:
+    """A smooth shape with equal petals; every sample is moved along its ray, by about ``noise``."""
+    smooth = flower(petals, n).points
+    moved = smooth * (1 + noise * np.random.default_rng(petals).normal(size=n)[:, None])
+    return psl.conform(ring(moved))
+
+
+def shuffled(seed: int):
+    """Choose what goes next at random."""
+    choice = random.Random(seed).choice
+    return lambda removable: choice(sorted(removable, key=lambda entry: sorted(entry[2])))
+
+
+def names(P: psl.DelaunayShape, rows: np.ndarray) -> set[frozenset[int]]:
+    return {frozenset(s) for s in P.tessellation.simplices[rows].tolist()}
+
+
+def scaled(P: psl.DelaunayShape, factor: float) -> psl.DelaunayShape:
+    """The same region, larger; a power of two rounds nothing."""
+    return psl.DelaunayShape(psl.delaunay(P.tessellation.points * factor), P.inner)
+
+
+def size_changes(strategy: str, factor: float, criterion: str = "corrected") -> bool:
+    """Whether the library keeps other simplices when a region is scaled."""
+    for seed in range(5):
+        P = random_region(seed, 2 if strategy == "branch" else 3)
+        h, large = (psl.hierarchy(Q, strategy, criterion) for Q in (P, scaled(P, factor)))
+        if not all((h.kept(t) == large.kept(t)).all() for t in THRESHOLDS):
+            return True
+    return False
+
+
+def survivors(P: psl.DelaunayShape, rule, threshold: float, choose=None) -> frozenset:
+    region = Region.of(P)
+    simplify(region, rule, threshold, choose=choose)
+    return frozenset(region.alive)

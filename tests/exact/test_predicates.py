@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from truth.rational import rational
 
 from polyskel_lite.checks import as_points
 from polyskel_lite.errors import InputError
@@ -34,10 +35,6 @@ def solve(rows, right):
             if k != i:
                 rows[k] = [x - rows[k][i] * y for x, y in zip(rows[k], rows[i], strict=True)]
     return [row[-1] for row in rows]
-
-
-def rational(points):
-    return [[Fraction(x) for x in p] for p in np.asarray(points, dtype=float).tolist()]
 
 
 def power(query, corner, center):

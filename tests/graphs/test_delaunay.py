@@ -1,23 +1,16 @@
-"""Delaunay, Voronoi and Gabriel against their definitions."""
-
-from itertools import combinations
+"""Delaunay tessellations against their definition."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, QhullError
+from truth.points import distinct
 
 import polyskel_lite as psl
-from polyskel_lite.exact.predicates import in_ball, in_gabriel_ball
+from polyskel_lite.exact.predicates import in_ball
 from polyskel_lite.graphs.incremental import incremental_delaunay
 from polyskel_lite.graphs.triangulation import problem
-
-
-def distinct(n, least, most):
-    return st.lists(st.tuples(*[st.integers(0, 4)] * n), min_size=least, max_size=most, unique=True).map(
-        lambda points: np.array(points, dtype=float)
-    )
 
 
 @pytest.mark.parametrize("n", [2, 3])
@@ -98,70 +91,6 @@ def test_the_order_does_not_depend_on_qhull():
     simplices = psl.delaunay(points).simplices.tolist()
     assert simplices == sorted(simplices)
     assert all(simplex[0] == min(simplex) for simplex in simplices)
-
-
-@pytest.mark.parametrize("closed", [True, False])
-@pytest.mark.parametrize("n", [2, 3])
-@given(data=st.data())
-def test_gabriel_by_definition(n, closed, data):
-    """All Delaunay facets, by looking at every other sample; the library looks at two."""
-    points = data.draw(distinct(n, n + 2, 11))
-    try:
-        t = psl.delaunay(points)
-    except psl.TessellationError:
-        return
-    limit = 0 if closed else 1
-    expected = set()
-    for facet in t.facets().tolist():
-        others = np.delete(points, facet, axis=0)
-        corners = np.broadcast_to(points[facet], (len(others), n, n))
-        if (in_gabriel_ball(corners, others) < limit).all():
-            expected.add(tuple(facet))
-    assert set(map(tuple, psl.gabriel(t, closed).tolist())) == expected
-
-
-@given(distinct(2, 4, 11))
-def test_strict_gabriel_edges_are_always_delaunay(points):
-    """Nothing is missed by looking at Delaunay facets only."""
-    try:
-        t = psl.delaunay(points)
-    except psl.TessellationError:
-        return
-    found = set(map(tuple, psl.gabriel(t).tolist()))
-    for p, q in combinations(range(len(points)), 2):
-        others = np.delete(points, [p, q], axis=0)
-        empty = (in_gabriel_ball(np.broadcast_to(points[[p, q]], (len(others), 2, 2)), others) < 0).all()
-        assert empty == ((p, q) in found)
-
-
-@pytest.mark.parametrize("n", [2, 3])
-def test_voronoi_elements_are_equidistant(n):
-    points = np.random.default_rng(3).random((30, n))
-    graph = psl.voronoi(points)
-    d = np.sqrt(((graph.vertices[:, None] - points) ** 2).sum(axis=2))
-    nearest = np.sort(d, axis=1)
-    # Rounding of far circumcenters is relative to their distance.
-    assert np.allclose(nearest[:, : n + 1], graph.radii[:, None], rtol=1e-9)
-    for a, b in graph.edges:
-        shared = np.intersect1d(
-            graph.tessellation.simplices[graph.simplices[a]], graph.tessellation.simplices[graph.simplices[b]]
-        )
-        assert len(shared) == n
-    for polygon in graph.polygons:
-        simplices = graph.tessellation.simplices[graph.simplices[polygon]]
-        assert len(set.intersection(*map(set, simplices.tolist()))) == 2
-    hull = ConvexHull(points)
-    assert len(graph.rays) == len(hull.simplices)
-    assert np.allclose(np.linalg.norm(graph.rays, axis=1), 1)
-
-
-def test_rays_point_away_from_the_points():
-    points = np.random.default_rng(4).random((30, 2))
-    graph = psl.voronoi(points)
-    for start, ray in zip(graph.vertices[graph.ray_vertices], graph.rays, strict=True):
-        # Far along a ray, the nearest samples are the two ends of its hull edge, at one distance.
-        far = np.sort(np.sqrt(((start + 100 * ray - points) ** 2).sum(axis=1)))
-        assert far[0] == pytest.approx(far[1], rel=1e-9)
 
 
 def test_circumcenters_of_needles():

@@ -6,73 +6,19 @@ by a few times 1e-9, and an estimate from samples may be five of its own standar
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from truth.medial import FAMILIES, Union, random_polyball
+from truth.cases import Balls, family_member, of_all_families
+from truth.medial import Union
 
 import polyskel_lite as psl
 from polyskel_lite.errors import InputError
-from polyskel_lite.polyballs.distance import distance_to_boundary
-from polyskel_lite.polyballs.sphere_patches import _fan, _icosphere, patches
-from polyskel_lite.polyballs.union import BallUnion
-from polyskel_lite.polyballs.volumes import patch_areas, surface_area, volume
+from polyskel_lite.polyballs.sphere_patches import _fan, _icosphere
+from polyskel_lite.polyballs.volumes import patch_areas
 
 PI = np.pi
-
-
-class Balls:
-    """Balls where they stand, and the functions under test, which see them from their middle."""
-
-    def __init__(self, centers, radii):
-        centers, radii = np.array(centers, dtype=float), np.array(radii, dtype=float)
-        self.union = BallUnion(centers, radii)
-        self.centers, self.radii = centers[self.union.rows], self.union.radii
-
-    def __len__(self):
-        return len(self.radii)
-
-    @property
-    def size(self):
-        low, high = self.box()
-        return float((high - low).max())
-
-    def box(self):
-        reach = self.radii[:, None]
-        return (self.centers - reach).min(axis=0), (self.centers + reach).max(axis=0)
-
-    def volume(self):
-        return volume(self.union)
-
-    def area(self):
-        return surface_area(self.union)
-
-    def distance(self, queries):
-        return distance_to_boundary(np.asarray(queries, dtype=float) - self.union.origin, self.union)
-
-    def mesh(self, fineness=0.03):
-        vertices, triangles, ball = patches(self.union, fineness)
-        return vertices + self.union.origin, triangles, ball
-
-    def inside(self, points, share=0.0):
-        """Deeper inside some ball than a share of its radius."""
-        square = ((points[:, None] - self.centers) ** 2).sum(axis=2)
-        return (square < (self.radii * (1 - share)) ** 2).any(axis=1)
-
-
-@cache
-def family_member(number) -> Balls:
-    """One of the oracle's polyballs, every ball once (that is how `Polyball` calls the functions)."""
-    _, centers, radii = random_polyball(number, 3)
-    rows = np.unique(np.column_stack([centers, radii]), axis=0)
-    return Balls(rows[:, :3], rows[:, 3])
-
-
-def of_all_families(count):
-    return range(count * len(FAMILIES))
 
 
 def hollow_cage(count=60, radius=0.35) -> Balls:
@@ -397,83 +343,6 @@ def test_spheres_that_surround_a_common_point():
     # No hole inside: all that is left are the outer balls.
     assert set(ball) == set(np.flatnonzero(((grid == 0) | (grid == 3)).any(axis=1)))
     assert Y.distance([(1.5, 1.5, 1.5)])[0] == pytest.approx(2, rel=1e-12)
-
-
-# --- caps and distances
-
-
-@pytest.mark.parametrize("number", of_all_families(3))
-def test_points_of_a_sphere_in_no_cap_are_on_the_boundary(number):
-    Y = family_member(number)
-    covered = Y.union.caps
-    u = np.random.default_rng(number).standard_normal((500, 3))
-    u /= np.linalg.norm(u, axis=1)[:, None]
-    for ball in np.flatnonzero(Y.union.exposed):
-        rows = slice(covered.first[ball], covered.first[ball + 1])
-        free = (u @ covered.axes[rows].T <= covered.heights[rows]).all(axis=1)
-        points = Y.centers[ball] + Y.radii[ball] * u
-        assert not Y.inside(points[free], 1e-9).any()
-        assert Y.inside(points[~free], -1e-9).all()
-
-
-def queries_for(Y, rng, count=200):
-    """Anywhere, and where it is hard: centres, axes of circles, singular points, arcs, next to these."""
-    low, high = Y.box()
-    origin, (circles, arcs, corners) = Y.union.origin, Y.union.boundary[1:4]
-    row, start, end = arcs
-    hard = [
-        Y.centers - origin,
-        circles.centers,
-        circles.centers + circles.frames[:, 2] * rng.uniform(-1, 1, (len(circles.pairs), 1)),
-        corners,
-        circles.points(row, (start + end) / 2),
-        Y.centers.mean(axis=0)[None] - origin,
-    ]
-    hard = np.concatenate(hard) + origin
-    near = hard + 1e-4 * Y.size * rng.standard_normal(hard.shape)
-    return np.concatenate(
-        [
-            rng.uniform(2 * low - high, 2 * high - low, (count, 3)),
-            rng.uniform(low, high, (count, 3)),
-            hard,
-            near,
-        ]
-    )
-
-
-@pytest.mark.parametrize("number", of_all_families(10))
-def test_distance_against_all_candidates(number):
-    """`truth.medial.Union` looks at every circle and crossing of three spheres, and at no power diagram."""
-    Y = family_member(number)
-    rng = np.random.default_rng(number)
-    queries = queries_for(Y, rng)
-    truth = Union(Y.centers, Y.radii, seed=number).boundary_distance(queries)
-    rounding = 1e-13 * Y.size + 1e-14 * np.abs(Y.centers).max()
-    # Singular points are believed to 1e-12 of the radius over the sine of the angle of their circles.
-    assert np.abs(Y.distance(queries) - truth).max() < rounding + 1e-11 * Y.size
-
-
-def test_distance_between_bounds_from_samples():
-    """Samples of the boundary are no nearer than the boundary, and hardly farther if they are dense."""
-    for number in of_all_families(1):
-        Y = family_member(number)
-        vertices, triangles, _ = Y.mesh(0.02)
-        queries = np.random.default_rng(number).uniform(*Y.box(), (2_000, 3))
-        found, upper = Y.distance(queries), cKDTree(vertices).query(queries)[0]
-        edges = vertices[triangles] - vertices[np.roll(triangles, 1, axis=1)]
-        longest = np.linalg.norm(edges, axis=2).max()
-        assert (found <= upper + 1e-12 * np.abs(Y.centers).max()).all()
-        assert (upper <= found + longest).all()
-        # Lipschitz: the distance changes by no more than the way between two queries.
-        assert (np.abs(np.diff(found)) <= np.linalg.norm(np.diff(queries, axis=0), axis=1) + 1e-12).all()
-
-
-def test_distance_does_not_depend_on_the_company():
-    Y = family_member(3)
-    queries = np.random.default_rng(0).uniform(*Y.box(), (300, 3))
-    together = Y.distance(queries)
-    assert together.tolist() == [Y.distance(q[None])[0] for q in queries]
-    assert Y.distance(np.zeros((0, 3))).shape == (0,)
 
 
 def test_many_balls_take_seconds():

@@ -203,9 +203,13 @@ def test_site_asks_for_widgets_and_readers_only_where_they_are_used(site):
         assert ("ipywidgets" in line) == bool(re.search(r"\bexplore\b", code)), path.name
 
 
-def test_files_that_chapters_link_to_are_in_the_site(site):
+def test_files_that_chapters_link_to_or_import_are_in_the_site(site):
     files = site / "files" / "notebooks"
     for path in NOTEBOOKS:
         cells = [c.source for c in nbformat.read(path, as_version=4).cells if c.cell_type == "markdown"]
         for link in re.findall(r"\]\((\.\./[^)#]+)\)", "\n".join(cells)):
             assert (files / link).exists(), f"{path.name} links to {link}"
+    # The claims page imports the checks, and they import what they are held against.
+    checks = f"import sys; sys.path.append({str(site / 'files' / 'tests')!r}); import claims"
+    done = run(sys.executable, "-c", checks)
+    assert done.returncode == 0, done.stderr

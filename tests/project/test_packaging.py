@@ -1,6 +1,5 @@
 """One list of packages everywhere, and a wheel that works with NumPy, SciPy and Matplotlib alone."""
 
-import ast
 import re
 import subprocess
 import sys
@@ -148,28 +147,3 @@ def test_wheel_works_without_any_extra(archives, tmp_path):
     command = [sys.executable, "-c", IMPORT_ALL, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-
-
-def imported(path: Path) -> set[str]:
-    """Every module that a file imports, also inside functions, with relative names made absolute."""
-    names = set()
-    package = path.relative_to(ROOT).with_suffix("").parts[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            base = package[: len(package) - node.level + 1] if node.level else ()
-            start = ".".join([*base, *([node.module] if node.module else [])])
-            names |= {start} | {f"{start}.{alias.name}" for alias in node.names}
-    return names
-
-
-def test_mathematics_never_imports_drawing_and_drawing_never_imports_widgets():
-    for path in sorted((ROOT / "polyskel_lite").rglob("*.py")):
-        parts = path.relative_to(ROOT / "polyskel_lite").parts
-        names = {re.sub(r"^polyskel_lite\.", "", name).partition(".")[0] for name in imported(path)}
-        kind = parts[0].removesuffix(".py")
-        if kind not in ("drawing", "figures", "explore"):
-            assert not names & {"matplotlib", "drawing", "figures", "explore"}, path
-        if kind != "explore":
-            assert not names & {"explore", "ipywidgets", "IPython", "anywidget"}, path

@@ -2,19 +2,13 @@
 
 import numpy as np
 import pytest
+from truth.solids import random_region
 
 import polyskel_lite as psl
 from polyskel_lite.simplification import collapse
 from polyskel_lite.simplification.criteria import face_angles, facet_measures
 
 STRATEGIES = {2: ["branch"], 3: ["surface", "wireframe"]}
-
-
-def random_region(seed, n=2, points=60, fill=0.7):
-    """Any set of Delaunay simplices: pinched, with holes and cavities. The dual does not mind."""
-    rng = np.random.default_rng(seed)
-    t = psl.delaunay(rng.random((points, n)))
-    return psl.DelaunayShape(t, rng.random(len(t.simplices)) < fill)
 
 
 def direct_run(P, strategy, threshold):

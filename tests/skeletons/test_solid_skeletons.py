@@ -1,4 +1,4 @@
-"""Sk1, Sk2 and Sk3 in space against rational arithmetic on every Voronoi edge, and what they must contain."""
+"""Sk0 to Sk3 in space: topology, inclusions, and rational arithmetic on every Voronoi edge."""
 
 from fractions import Fraction
 
@@ -169,3 +169,18 @@ def test_rational_points():
     ends = [(Fraction(x), Fraction(x), Fraction(1)) for x in (-1, 3)]
     along_a_face = clip_rational(V[F], np.arange(12), *ends, 1)
     assert along_a_face == [(Fraction(1, 4), Fraction(1, 2))]
+
+
+@pytest.mark.parametrize("name", [*FIELDS, "vertebra", "fourbranch"])
+def test_betti_numbers_of_shape_delaunay_shape_and_sk0(name):
+    shape = solid(name) if name in FIELDS else psl.datasets.load(name)
+    P = psl.delaunay_shape(shape)
+    skeleton = psl.sk0(P)
+    assert shape.betti() == P.betti() == skeleton.betti()
+    back = skeleton.reconstruct()
+    assert (back.inner == P.inner).all()
+    faces = {tuple(np.roll(f, -f.argmin())) for f in shape.facets}
+    assert {tuple(np.roll(f, -f.argmin())) for f in P.boundary()} == faces
+    corners = P.tessellation.points[P.tessellation.simplices[P.inner]]
+    volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / 6
+    assert volume == pytest.approx(shape.volume(), rel=1e-9)

@@ -1,5 +1,6 @@
 """What the library is held against, shared by the tests, the checks of the claims and the benchmarks.
 
-Oracles import nothing of the library: `rational` (the plane in fractions), `medial` (unions of balls by brute
-force), `meshes` (cubes by hand). `solids` and `cases` set the library's own things beside them.
+Oracles: `rational` (the plane in fractions), `medial` and `nerves` (unions of balls by brute force),
+`complexes` (distances). Things to try: `points`, `meshes`, `polyballs`. None of these imports the library.
+`solids` are made by it, `cases` set it beside the truth.
 """

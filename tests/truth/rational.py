@@ -1,4 +1,4 @@
-"""Independent, exact (rational) checks of Theorems 1 and 2 on random regions.
+"""The plane in fractions: Delaunay, Voronoi, Gabriel, inside and outside, Sk2; and random regions.
 
 Nothing here calls the library's geometry: Delaunay comes from the definition (no sample strictly
 inside the circle), inside tests from rational crossings. Slow, small and easy to believe.
@@ -193,4 +193,5 @@ def grid_region(
 
 
 def rational(points) -> list[Point]:
-    return [(Fraction(x), Fraction(y)) for x, y in np.asarray(points, dtype=float).tolist()]
+    """Points, also of space, as fractions."""
+    return [tuple(map(Fraction, p)) for p in np.asarray(points, dtype=float).tolist()]

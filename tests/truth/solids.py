@@ -1,4 +1,4 @@
-"""Solids that several tests share: implicit ones of known topology, and jagged ones. Made by the library."""
+"""Regions and solids that several tests share: of known topology, jagged, or any. Made by the library."""
 
 from __future__ import annotations
 
@@ -40,3 +40,10 @@ def random_solids(count: int) -> Iterator[psl.Shape]:
             continue
         count -= 1
         yield psl.Shape(shape.points * 10 ** random.uniform(-1.5, 0, 3), shape.facets)
+
+
+def random_region(seed: int, n: int = 2, points: int = 40, fill: float = 0.7) -> psl.DelaunayShape:
+    """Any set of Delaunay simplices: pinched, in pieces, with holes and cavities."""
+    rng = np.random.default_rng(seed)
+    t = psl.delaunay(rng.random((points, n)))
+    return psl.DelaunayShape(t, rng.random(len(t.simplices)) < fill)

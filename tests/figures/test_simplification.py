@@ -1,4 +1,4 @@
-"""Figures 6 to 9 show what their captions say."""
+"""Figures 6 to 10 show what their captions say."""
 
 import numpy as np
 import pytest
@@ -95,3 +95,12 @@ def test_parents_are_where_boundary_is_handed_to():
 def test_region_names_simplices_that_are_not_delaunay():
     with pytest.raises(ValueError, match="1 of 1 simplices are not Delaunay"):
         solids.region([(0, 0), (4, 0), (2, 1), (2, -1)], [(0, 1, 2)])
+
+
+def test_figure_10_names_its_columns_and_counts_branches():
+    pod = psl.implicit.solid(psl.implicit.tetrapod(), n=300)
+    figure = figures.figure_10({"tetrapod": pod, "again": psl.delaunay_shape(pod)})
+    words = [text.get_text() for ax in figure.axes for text in ax.texts]
+    assert len(figure.axes) == 10
+    assert f"tetrapod, {len(pod.points)} samples" in words
+    assert words.count("4 branches") == 2

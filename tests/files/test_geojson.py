@@ -1,0 +1,107 @@
+"""GeoJSON: what becomes a shape, and a sentence for each kind of bad file."""
+
+import json
+
+import pytest
+
+from polyskel_lite import InputError, Shape, ShapeError
+
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]
+HOLE = [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]
+FAR = [[[6, 0], [8, 0], [8, 2], [6, 0]]]
+FRAME = {"type": "Polygon", "coordinates": [SQUARE, HOLE]}
+
+
+def read_text(folder, name, text):
+    path = folder / name
+    path.write_text(text if isinstance(text, str) else json.dumps(text), encoding="utf-8")
+    return Shape.from_file(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "betti", "area"),
+    [
+        (FRAME, (1, 1), 15),
+        ({"type": "MultiPolygon", "coordinates": [FRAME["coordinates"], FAR]}, (2, 1), 17),
+        ({"type": "Feature", "properties": {}, "geometry": FRAME}, (1, 1), 15),
+        (
+            {
+                "type": "FeatureCollection",
+                "features": [
+                    {"type": "Feature", "geometry": FRAME},
+                    {"type": "Feature", "geometry": None},
+                    {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": FAR}},
+                ],
+            },
+            (2, 1),
+            17,
+        ),
+        (
+            {
+                "type": "GeometryCollection",
+                "geometries": [{"type": "GeometryCollection", "geometries": [FRAME]}],
+            },
+            (1, 1),
+            15,
+        ),
+        ({"type": "Polygon", "coordinates": [[[*p, 7.5] for p in SQUARE]]}, (1, 0), 16),  # with heights
+        ({"type": "Polygon", "coordinates": [[*SQUARE[:2], *SQUARE[1:]]]}, (1, 0), 16),  # a vertex twice
+    ],
+)
+def test_geojson(tmp_path, content, betti, area):
+    for name in ("a.geojson", "A.JSON"):
+        shape = read_text(tmp_path, name, content)
+        assert shape.betti() == betti
+        assert shape.area() == area
+
+
+def collection(geometry):
+    return {"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": geometry}]}
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("{not json", "a.geojson: this is not JSON"),
+        ("[" * 100_000, "this is not JSON"),
+        ([1, 2], "the file is no GeoJSON object"),
+        ({"type": "LineString", "coordinates": SQUARE}, "the file is a LineString; only Polygon"),
+        (collection({"type": "Point", "coordinates": [0, 0]}), r"features\[0\].geometry is a Point"),
+        (collection(None), "no Polygon or MultiPolygon in it"),
+        ({"type": "Polygon"}, "coordinates is not a list"),
+        (
+            {"type": "Polygon", "coordinates": [SQUARE, HOLE[:-1]]},
+            r"coordinates\[1\] is open: .*\(1, 1\) and .*\(2, 1\)",
+        ),
+        ({"type": "Polygon", "coordinates": [[]]}, r"coordinates\[0\] is not a list of positions"),
+        ({"type": "Polygon", "coordinates": SQUARE}, r"coordinates\[0\] is not a list of positions"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], ["x", 1], [0, 0]]]}, "not a list of positions"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [0, 0]]]}, "2 different positions"),
+        (
+            {"type": "MultiPolygon", "coordinates": [[HOLE], [[[0, 0]]]]},
+            r"coordinates\[1\]\[0\] has 0 different",
+        ),
+        ('{"type": "Polygon", "coordinates": [[[0, 0], [NaN, 1], [1, 1], [0, 0]]]}', "not a finite number"),
+    ],
+)
+def test_bad_geojson(tmp_path, content, message):
+    with pytest.raises(InputError, match=message) as error:
+        read_text(tmp_path, "a.geojson", content)
+    assert str(error.value).startswith("a.geojson: ")
+
+
+def test_geojson_with_a_byte_order_mark(tmp_path):
+    (tmp_path / "a.geojson").write_text(json.dumps(FRAME), encoding="utf-8-sig")
+    assert Shape.from_file(tmp_path / "a.geojson").area() == 15
+
+
+def test_bytes_that_are_no_text(tmp_path):
+    (tmp_path / "a.geojson").write_bytes(b"\xff\xfe\xfa")
+    with pytest.raises(InputError, match="not JSON"):
+        Shape.from_file(tmp_path / "a.geojson")
+
+
+def test_crossing_outline_keeps_its_error_class_and_names_the_file(tmp_path):
+    bow = {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [1, 0], [0, 1], [0, 0]]]}
+    with pytest.raises(ShapeError, match=r"^bow\.json: segment"):
+        read_text(tmp_path, "bow.json", bow)

@@ -1,0 +1,87 @@
+"""Pictures: which part of them is the shape."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from polyskel_lite import InputError, Shape
+
+
+def read_picture(folder, pixels, **options):
+    path = folder / "picture.png"
+    Image.fromarray(np.asarray(pixels)).save(path)
+    return Shape.from_file(path, **options)
+
+
+def test_shape_has_the_readers(tmp_path):
+    Image.fromarray(np.pad(np.zeros((4, 4), np.uint8), 2, constant_values=255)).save(tmp_path / "a.png")
+    shape = Shape.from_file(tmp_path / "a.png", invert=False)
+    assert (shape.points == Shape.from_mask(np.pad(np.ones((4, 4)), 2)).points).all()
+
+
+INK = np.full((6, 8), 255, dtype=np.uint8)
+INK[1:3, 1:5] = 0  # a dark bar near the top, 4 by 2 pixels
+BAR = 8 - 4 / 8  # its area with cut corners
+
+
+def test_dark_part_of_an_opaque_picture(tmp_path):
+    for pixels in (INK, np.stack([INK] * 3, axis=2), INK > 0, INK.astype(np.uint16) * 257):
+        shape = read_picture(tmp_path, pixels)
+        assert shape.area() == pytest.approx(BAR, abs=1e-9)
+        assert shape.points.min(axis=0).tolist() == [1, 3]
+
+
+def test_deep_grey_counts_from_its_brightest_value(tmp_path):
+    """Sixteen bits, of which a camera used ten."""
+    pixels = np.where(INK > 0, 1000, 300).astype(np.uint16)
+    assert read_picture(tmp_path, pixels).betti() == (1, 0)
+
+
+def test_opaque_part_of_a_transparent_picture(tmp_path):
+    """The bar is white here: opacity decides, whatever the colour."""
+    rgba = np.stack([np.full_like(INK, 255)] * 3 + [255 - INK], axis=2)
+    assert read_picture(tmp_path, rgba).area() == pytest.approx(BAR)
+
+
+def test_palette_with_transparency(tmp_path):
+    picture = Image.fromarray((INK > 0).astype(np.uint8)).convert("P")
+    picture.save(tmp_path / "a.gif", transparency=int(picture.getpixel((0, 0))))
+    assert Shape.from_file(tmp_path / "a.gif").area() == pytest.approx(BAR)
+
+
+def test_invert_takes_the_other_part(tmp_path):
+    assert read_picture(tmp_path, 255 - INK, invert=True).area() == pytest.approx(BAR)
+    assert read_picture(tmp_path, INK, invert=True).betti() == (1, 1)
+
+
+def test_level_and_smooth_reach_the_picture(tmp_path):
+    grey = np.where(INK == 0, 100, 255).astype(np.uint8)  # darkness 0.61
+    with pytest.raises(InputError, match=r"picture\.png: no pixel is dark at level 0\.7"):
+        read_picture(tmp_path, grey, level=0.7)
+    edge = read_picture(tmp_path, grey, level=0.5).points[:, 0].min()
+    assert edge == pytest.approx(0.5 + 0.5 / (155 / 255))
+    assert read_picture(tmp_path, INK, smooth=0.7).area() != pytest.approx(BAR, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("pixels", "message"),
+    [
+        (np.zeros((5, 5), np.uint8), "all pixels are dark at level 0.5, so there is no outline; .* invert"),
+        (np.full((5, 5), 255, np.uint8), "no pixel is dark"),
+        (np.zeros((5, 5, 4), np.uint8), "no pixel is opaque"),
+    ],
+)
+def test_pictures_without_an_outline(tmp_path, pixels, message):
+    with pytest.raises(InputError, match=message):
+        read_picture(tmp_path, pixels)
+
+
+def test_broken_pictures(tmp_path):
+    Image.fromarray(np.random.default_rng(0).integers(0, 255, (50, 50), dtype=np.uint8)).save(
+        tmp_path / "a.png"
+    )
+    whole = (tmp_path / "a.png").read_bytes()
+    for content in (b"no picture at all", whole[: len(whole) // 2]):
+        (tmp_path / "b.png").write_bytes(content)
+        with pytest.raises(InputError, match=r"^b\.png: the picture cannot be opened"):
+            Shape.from_file(tmp_path / "b.png")
