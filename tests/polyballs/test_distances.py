@@ -81,22 +81,3 @@ def test_distance_does_not_depend_on_the_company():
     together = Y.distance(queries)
     assert together.tolist() == [Y.distance(q[None])[0] for q in queries]
     assert Y.distance(np.zeros((0, 3))).shape == (0,)
-
-
-def test_many_balls_take_seconds():
-    """Smoke test: no quadratic memory, no loop over pairs; times are in the benchmarks."""
-    rng = np.random.default_rng(0)
-    Y = Balls(rng.standard_normal((1_500, 3)) * 3.5, rng.uniform(0.3, 1, 1_500))
-    vertices, triangles, _ = Y.mesh()
-    there, back = directed_edges(triangles, len(vertices))
-    assert np.array_equal(there, back)
-    assert 0 < measure(vertices, triangles)[0] < Y.volume()
-    points = rng.uniform(*Y.box(), (10_000, 3))
-    low, high = Y.box()
-    distance = Y.distance(points)
-    square, _ = cKDTree(Y.centers).query(points)
-    assert np.isfinite(distance).all()
-    assert (distance >= square - 1)[square > 1].all()
-    share = np.mean([Y.inside(part).mean() for part in np.split(points, 100)])
-    box = np.prod(high - low)
-    assert abs(Y.volume() - box * share) < 5 * box * np.sqrt(share * (1 - share) / len(points))

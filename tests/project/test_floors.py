@@ -47,17 +47,6 @@ def imported(path: Path) -> set[str]:
     return names
 
 
-def test_mathematics_never_imports_drawing_and_drawing_never_imports_widgets():
-    for path in sorted((ROOT / "polyskel_lite").rglob("*.py")):
-        parts = path.relative_to(ROOT / "polyskel_lite").parts
-        names = {re.sub(r"^polyskel_lite\.", "", name).partition(".")[0] for name in imported(path)}
-        kind = parts[0].removesuffix(".py")
-        if kind not in ("drawing", "figures", "explore"):
-            assert not names & {"matplotlib", "drawing", "figures", "explore"}, path
-        if kind != "explore":
-            assert not names & {"explore", "ipywidgets", "IPython", "anywidget"}, path
-
-
 def test_oracles_import_nothing_of_the_library():
     made_by_it = {"solids", "cases"}
     for path in (ROOT / "tests" / "truth").glob("*.py"):
