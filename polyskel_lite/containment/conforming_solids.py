@@ -7,8 +7,8 @@ import numpy as np
 from ..checks import near
 from ..errors import ContourContainmentError, ShapeError
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
-from ..shapes import Shape
-from .surface_edits import edge_keys, flip_toward, split_edges
+from ..shapes import Shape, edge_keys, split_edges
+from .surface_edits import flip_toward
 
 
 def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) -> Shape:

@@ -7,7 +7,7 @@ points, polygons and rings around edges, Betti numbers, rows of small whole numb
 
 from .arrays import unique_rows
 from .boxes import overlapping_pairs
-from .nearest import facet_distance, nearest_facets
+from .nearest import facet_distance, nearest_facets, nearest_on_facets
 from .polygons import Polygons, dual_polygons, edge_rings
 from .predicates import as_integers, in_ball, in_gabriel_ball, orientation
 from .rational import (

@@ -5,10 +5,21 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .segments import point_segment_distance
-from .triangles import point_triangle_distance
+from .segments import nearest_on_segments
+from .triangles import nearest_on_triangles
 
 _CHUNK = 500_000  # pairs of points and facets looked at together: bounds the memory, not the result
+
+
+def nearest_on_facets(queries: np.ndarray, facets: np.ndarray) -> np.ndarray:
+    """The nearest point of a segment (k, 2, 2) or triangle (k, 3, 3), row by row; both may be points.
+
+    Examples
+    --------
+    >>> nearest_on_facets(np.array([[1.0, 2]]), np.array([[[0.0, 0], [4, 0]]])).tolist()
+    [[1.0, 0.0]]
+    """
+    return (nearest_on_segments if facets.shape[1] == 2 else nearest_on_triangles)(queries, facets)
 
 
 def facet_distance(queries: np.ndarray, facets: np.ndarray) -> np.ndarray:
@@ -19,7 +30,7 @@ def facet_distance(queries: np.ndarray, facets: np.ndarray) -> np.ndarray:
     >>> facet_distance(np.array([[1.0, 2]]), np.array([[[0.0, 0], [4, 0]]])).tolist()
     [2.0]
     """
-    return (point_segment_distance if facets.shape[1] == 2 else point_triangle_distance)(queries, facets)
+    return np.linalg.norm(queries - nearest_on_facets(queries, facets), axis=1)
 
 
 def nearest_facets(facets: np.ndarray, queries: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

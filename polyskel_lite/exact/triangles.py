@@ -13,7 +13,7 @@ import numpy as np
 from .boxes import overlapping_pairs, self_overlaps
 from .predicates import orientation
 from .rational import PLANES
-from .segments import point_segment_distance, segments_meet
+from .segments import nearest_on_segments, segments_meet
 
 _CHUNK = 500_000  # pairs of points and triangles looked at together: bounds the memory, not the result
 
@@ -287,6 +287,29 @@ def _shifted_turn(sides, queries):
     return np.where(turn == 0, np.sign(b[:, 0] - a[:, 0]), turn).astype(np.int8)
 
 
+def nearest_on_triangles(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The point of a triangle that is nearest to a query, row by row; triangles may be segments or points.
+
+    Examples
+    --------
+    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]] * 2, dtype=float)
+    >>> nearest_on_triangles(np.array([[1.0, 1.0, 3.0], [5, 0, 1]]), floor).tolist()
+    [[1.0, 1.0, 0.0], [4.0, 0.0, 0.0]]
+    """
+    sides = [triangles[:, (i, (i + 1) % 3)] for i in range(3)]
+    on_sides = np.stack([nearest_on_segments(queries, side) for side in sides])
+    first = ((queries - on_sides) ** 2).sum(axis=2).argmin(axis=0)
+    nearest = on_sides[first, np.arange(len(queries))]
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    square = (normal**2).sum(axis=1)
+    over = square > 0
+    for side in sides:
+        over &= ((queries - side[:, 0]) * np.cross(normal, side[:, 1] - side[:, 0])).sum(axis=1) > 0
+    height = ((queries - triangles[:, 0]) * normal).sum(axis=1)
+    nearest[over] = queries[over] - (height[over] / square[over])[:, None] * normal[over]
+    return nearest
+
+
 def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Distance from point to triangle, row by row.
 
@@ -296,13 +319,4 @@ def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.nd
     >>> point_triangle_distance(np.array([[1.0, 1.0, 3.0]]), floor)
     array([3.])
     """
-    sides = [triangles[:, (i, (i + 1) % 3)] for i in range(3)]
-    distance = np.min([point_segment_distance(queries, side) for side in sides], axis=0)
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(normal, axis=1)
-    over = length > 0
-    for side in sides:
-        inward = np.cross(normal, side[:, 1] - side[:, 0])
-        over &= ((queries - side[:, 0]) * inward).sum(axis=1) > 0
-    height = np.abs(((queries - triangles[:, 0]) * normal).sum(axis=1))
-    return np.where(over, height / np.where(over, length, 1), distance)
+    return np.linalg.norm(queries - nearest_on_triangles(queries, triangles), axis=1)
