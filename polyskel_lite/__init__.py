@@ -9,6 +9,7 @@ from .containment import (
     reconstruct_curve,
 )
 from .errors import (
+    CoarseSamplingWarning,
     ContourContainmentError,
     DuplicatePointError,
     InputError,
@@ -19,12 +20,15 @@ from .errors import (
     TessellationError,
 )
 from .graphs import Tessellation, delaunay, gabriel
+from .pipeline import Bones, skeleton
 from .polyballs import Polyball, Sk2Conditions, delaunay_balls, sk2_conditions
 from .shapes import Shape
 from .simplification import Hierarchy, hierarchy
 from .skeletons import Skeleton, branch_graph, directed_hausdorff, hausdorff, sk0, sk1, sk2, sk3, voronoi
 
 __all__ = [
+    "Bones",
+    "CoarseSamplingWarning",
     "ContourContainmentError",
     "DelaunayShape",
     "DuplicatePointError",
@@ -58,5 +62,6 @@ __all__ = [
     "sk2",
     "sk2_conditions",
     "sk3",
+    "skeleton",
     "voronoi",
 ]

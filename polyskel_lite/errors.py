@@ -61,3 +61,7 @@ class TangentBallsError(PolyskelError):
     def __init__(self, message: str, pairs):
         super().__init__(message)
         self.pairs = pairs
+
+
+class CoarseSamplingWarning(UserWarning):
+    """Balls of a skeleton are larger than the room around their centres: the samples are too far apart."""

@@ -25,7 +25,8 @@ BELOW_DRAWING = {
 BELOW_DRAWING |= {"datasets", "implicit"}
 # Errors and checks are for all.
 MAY_IMPORT = {
-    "": BELOW_DRAWING,
+    "": BELOW_DRAWING | {"pipeline"},
+    "pipeline": BELOW_DRAWING,
     "errors": set(),
     "checks": set(),
     "exact": set(),
@@ -40,7 +41,7 @@ MAY_IMPORT = {
     "implicit": {"exact", "shapes", "graphs", "containment"},
     "drawing": {"exact", "graphs", "skeletons", "polyballs"},
     "figures": BELOW_DRAWING | {"drawing"},
-    "explore": BELOW_DRAWING | {"drawing"},
+    "explore": BELOW_DRAWING | {"drawing", "pipeline"},
 }
 # Where matplotlib and widgets may be imported; everything else of the library is mathematics.
 OUTSIDE = {
@@ -60,7 +61,11 @@ def broken_rules(texts):
         yield f"in a circle: {', '.join(circle)}"
     for i in HOUSE["imports"](texts):
         inner = HOUSE["room"](i.module) == HOUSE["room"](i.target)
-        if not inner and not i.face and i.target not in ("errors", "checks", "datasets", "implicit"):
+        if (
+            not inner
+            and not i.face
+            and i.target not in ("errors", "checks", "datasets", "implicit", "pipeline")
+        ):
             yield f"{i.module} imports {i.name} from {i.target} and not from the face of the room"
         if i.name.startswith("_"):
             yield f"{i.module} imports {i.name}, which is of {i.target} alone"

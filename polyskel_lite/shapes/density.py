@@ -34,8 +34,8 @@ def inner_normals(facets: np.ndarray) -> np.ndarray:
 
     Examples
     --------
-    >>> inner_normals(np.array([[[0, 0], [2, 0]]])).tolist()
-    [[-0.0, 1.0]]
+    >>> inner_normals(np.array([[[0, 0], [0, 2]]])).tolist()
+    [[-1.0, 0.0]]
     """
     u = facets[:, 1] - facets[:, 0]
     if facets.shape[1] == 2:
@@ -73,7 +73,8 @@ def local_width(boundary: np.ndarray, places: np.ndarray, normals: np.ndarray) -
     --------
     >>> from polyskel_lite import Shape
     >>> rectangle = Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]])
-    >>> local_width(rectangle.segments, np.array([[10.0, 0], [1, 0]]), np.array([[0.0, 1], [0, 1]])).tolist()
+    >>> up = np.array([[0.0, 1], [0, 1]])
+    >>> local_width(rectangle.segments, np.array([[10.0, 0], [1, 0]]), up).round(9).tolist()
     [2.0, 1.0]
     """
     radius = np.full(len(places), float(np.ptp(boundary, axis=(0, 1)).max()))

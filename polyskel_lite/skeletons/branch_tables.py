@@ -19,8 +19,8 @@ class Branch(NamedTuple):
     ----------
     start, end : str
         What is at its two ends: "end", "junction", "sheet" or "loop", with the number of the vertex.
-    length : float
-        In the unit of the coordinates.
+    length, smooth_length : float
+        In the unit of the coordinates: of the edges, and without their zigzag between the samples.
     mean_radius, least_radius, largest_radius : float
         Of the balls along it; the mean counts every piece by its length. The width is twice the radius.
     """
@@ -28,6 +28,7 @@ class Branch(NamedTuple):
     start: str
     end: str
     length: float
+    smooth_length: float
     mean_radius: float
     least_radius: float
     largest_radius: float
@@ -53,7 +54,8 @@ def branch_rows(skeleton: Skeleton) -> list[Branch]:
         if pieces.sum() > 0:
             mean = float((pieces * (radii[1:] + radii[:-1]) / 2).sum() / pieces.sum())
         ends = (f"{graph.nodes[node]['kind']} {node}" for node in (a, b))
-        rows.append(Branch(*ends, data["length"], mean, float(radii.min()), float(radii.max())))
+        lengths = data["length"], data["smooth_length"]
+        rows.append(Branch(*ends, *lengths, mean, float(radii.min()), float(radii.max())))
     return sorted(rows, key=lambda row: (-row.length, row))
 
 
@@ -62,9 +64,9 @@ def branch_csv(rows: list[Branch]) -> str:
 
     Examples
     --------
-    >>> print(branch_csv([Branch("end 0", "end 4", 4.5, 1.0, 0.9, 1.2)]))
-    start,end,length,mean_radius,least_radius,largest_radius
-    end 0,end 4,4.5,1.0,0.9,1.2
+    >>> print(branch_csv([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]))
+    start,end,length,smooth_length,mean_radius,least_radius,largest_radius
+    end 0,end 4,4.5,4.4,1.0,0.9,1.2
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

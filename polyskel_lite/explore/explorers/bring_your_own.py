@@ -27,6 +27,8 @@ SUFFIXES = (".png", ".jpg", ".jpeg", ".svg", ".geojson", ".json", ".stl", ".ply"
 MOST_BYTES = 8_000_000
 #: Vertices, in the plane and in space: more take more than seconds, and are for a script.
 MOST_VERTICES = {2: 20_000, 3: 20_000}
+#: Outlines of fewer vertices, such as plans and parcels, get samples where they are narrow (`Shape.densify`).
+FEW_VERTICES = 300
 #: Where the slider stands at first, in radians: noise is gone, what a reader would call a branch is there.
 FIRST_THRESHOLD = {2: np.pi, 3: np.pi / 3}
 
@@ -100,7 +102,8 @@ def chain(source: Shape | str | PathLike, **options) -> Chain:
             f"{name} has {count:,} vertices; up to {most:,} are quick enough to explore. {advice}, or use "
             "polyskel_lite.hierarchy in a script, which has no limit."
         )
-    refined = conform(shape)
+    few = shape.dimension == 2 and count < FEW_VERTICES
+    refined = conform(shape.densify() if few else shape)
     P = delaunay_shape(refined)
     found = tuple(hierarchy(P, strategy) for strategy in STRATEGIES[shape.dimension])
     return Chain(name, shape, refined, found)
@@ -118,7 +121,9 @@ def chain_text(way: Chain) -> str:
     given, added = way.given, len(way.refined.points) - len(way.given.points)
     graph = "Gabriel graph" if given.dimension == 2 else "Delaunay tessellation"
     if added:
-        refined = f"{added} more put its boundary into the {graph}."
+        few = given.dimension == 2 and len(given.points) < FEW_VERTICES
+        why = "make it dense enough and put" if few else "put"
+        refined = f"{added} more {why} its boundary into the {graph}."
     elif way.refined is given:
         refined = f"Its boundary is in the {graph} as it is."
     else:

@@ -26,7 +26,7 @@ def branch_table(rows: list[Branch], caption: str = "Branches, the longest first
 
     Examples
     --------
-    >>> branch_table([Branch("end 0", "end 4", 4.5, 1.0, 0.9, 1.2)]).count("<tr>")
+    >>> branch_table([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).count("<tr>")
     2
     """
     if not rows:
@@ -34,12 +34,14 @@ def branch_table(rows: list[Branch], caption: str = "Branches, the longest first
     left_out = len(rows) - ROWS_SHOWN
     if left_out > 0:
         caption += f" ({ROWS_SHOWN} of {len(rows)}; the CSV file has all of them)"
-    heads = ("number", "from", "to", "length", "mean radius", "mean width", "least radius", "largest radius")
+    heads = ["number", "from", "to", "length", "smoothed", "mean radius", "mean width"]
+    heads += ["least radius", "largest radius"]
     lines = [f'<table style="border-collapse:collapse"><caption>{html.escape(caption)}</caption><thead><tr>']
     lines += [f'<th scope="col" style="{_CELL}">{head}</th>' for head in heads]
     lines.append("</tr></thead><tbody>")
     for number, row in enumerate(rows[:ROWS_SHOWN], start=1):
-        numbers = (row.length, row.mean_radius, 2 * row.mean_radius, row.least_radius, row.largest_radius)
+        numbers = [row.length, row.smooth_length, row.mean_radius, 2 * row.mean_radius]
+        numbers += [row.least_radius, row.largest_radius]
         cells = [row.start, row.end, *(f"{value:.4g}" for value in numbers)]
         lines.append(f'<tr><th scope="row" style="{_CELL}">{number}</th>')
         lines += [f'<td style="{_CELL}">{html.escape(cell)}</td>' for cell in cells]

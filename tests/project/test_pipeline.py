@@ -1,0 +1,51 @@
+"""The whole chain in one call, on shapes with few vertices: lengths and widths can be checked by hand."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+
+
+def test_rectangle_has_its_axis():
+    bones = psl.skeleton([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    (axis,) = bones.branches
+    assert axis.length == pytest.approx(16, rel=0.01)
+    assert axis.smooth_length == pytest.approx(16, rel=0.01)
+    assert axis.mean_radius == pytest.approx(2, rel=0.05)
+    assert bones.quality.ratio < 1.02
+    assert bones.quality.added > 0
+
+
+def test_t_has_three_arms_of_the_right_width():
+    bones = psl.skeleton([[(0, 0), (100, 0), (100, 10), (60, 10), (60, 60), (40, 60), (40, 10), (0, 10)]])
+    assert len(bones.branches) == 3
+    true = bones.given.boundary_distance(bones.skeleton.vertices)
+    assert np.abs(bones.skeleton.radii / true - 1).max() < 0.05
+    widths = sorted(round(2 * row.least_radius) for row in bones.branches)
+    assert widths == [10, 10, 20]
+
+
+def test_without_samples_it_is_told():
+    rectangle = psl.Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    with pytest.warns(psl.CoarseSamplingWarning, match=r"5\.10 times as large"):
+        psl.skeleton(rectangle, densify=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        psl.skeleton(psl.datasets.load("gear"), densify=False)
+
+
+def test_files_and_refusals(tmp_path):
+    file = tmp_path / "plan.geojson"
+    file.write_text('{"type": "Polygon", "coordinates": [[[0, 0], [8, 0], [8, 2], [0, 2], [0, 0]]]}')
+    assert psl.skeleton(file).branches[0].mean_radius == pytest.approx(1, rel=0.05)
+    with pytest.raises(psl.InputError, match="unknown strategy"):
+        psl.skeleton(file, strategy="twigs")
+
+
+@pytest.mark.parametrize("zigzag", [0.0, 0.1, 0.2])
+def test_a_straight_bar_of_16_measures_16(zigzag):
+    x = np.arange(0, 16.25, 0.25)
+    points = np.column_stack([x, zigzag * (np.arange(len(x)) % 2), np.zeros_like(x)])
+    assert psl.skeletons.smooth_length(points, np.full(len(x), 2.0)) == pytest.approx(16, rel=0.01)
