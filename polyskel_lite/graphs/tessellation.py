@@ -50,10 +50,10 @@ class Tessellation:
 
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        scaled, exponent = ordinary(self)
         # Laid out so that each coordinate of all corners is contiguous: long loops for NumPy.
-        return _circumballs(
-            np.take(self.points.T, self.simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
-        )
+        corners = np.take(scaled.points.T, scaled.simplices.T.astype(np.intp, copy=False), axis=1)
+        return tuple(np.ldexp(array, exponent) for array in _circumballs(corners.transpose(2, 1, 0)))
 
     @property
     def circumcenters(self) -> np.ndarray:
@@ -132,6 +132,25 @@ class Tessellation:
         # A simplex's vertices sum up to its facet's vertices plus the apex.
         apex = self.simplices.sum(axis=1)[sides] - facets.sum(axis=1)[:, None]
         return np.where(sides >= 0, apex, -1)
+
+
+def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
+    """The same in a unit in which fourth powers of coordinates are ordinary floats, and its exponent of two.
+
+    A power of two changes no digit. Where coordinates are below 2**200 and above 2**-200, nothing is done.
+
+    Examples
+    --------
+    >>> from polyskel_lite import delaunay
+    >>> small, exponent = ordinary(delaunay([(0, 0), (1e90, 0), (0, 1e90)]))
+    >>> exponent, bool((np.ldexp(small.points, exponent) == [(0, 0), (1e90, 0), (0, 1e90)]).all())
+    (299, True)
+    """
+    exponent = int(np.frexp(np.abs(tessellation.points).max(initial=0.0))[1])
+    if abs(exponent) <= 200:
+        return tessellation, 0
+    points = np.ldexp(tessellation.points, -exponent)
+    return Tessellation(points, tessellation.simplices, tessellation.neighbors), exponent
 
 
 def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..graphs import OPPOSITE, Tessellation
+from ..graphs import OPPOSITE, Tessellation, ordinary
 
 
 def _facet_normals(tessellation: Tessellation, rows) -> np.ndarray:
@@ -32,10 +32,11 @@ def facet_measures(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
     >>> facet_measures(psl.delaunay([(0, 0), (4, 0), (0, 3)])).tolist()
     [[5.0, 3.0, 4.0]]
     """
+    scaled, exponent = ordinary(tessellation)
     if tessellation.dimension == 3:
-        return np.sqrt((_facet_normals(tessellation, rows) ** 2).sum(axis=1)).T / 2
-    ends = tessellation.points[tessellation.simplices[rows][:, OPPOSITE[3]]]
-    return np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2))
+        return np.ldexp(np.sqrt((_facet_normals(scaled, rows) ** 2).sum(axis=1)).T / 2, 2 * exponent)
+    ends = scaled.points[scaled.simplices[rows][:, OPPOSITE[3]]]
+    return np.ldexp(np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2)), exponent)
 
 
 def face_angles(tessellation: Tessellation, rows=slice(None), dihedral: bool = False) -> np.ndarray:
@@ -64,7 +65,7 @@ def face_angles(tessellation: Tessellation, rows=slice(None), dihedral: bool = F
     >>> (face_angles(corner)[0] / np.pi).round(3).tolist()
     [0.696, 0.696, 0.696, 0.5, 0.5, 0.5]
     """
-    normals = _facet_normals(tessellation, rows)
+    normals = _facet_normals(ordinary(tessellation)[0], rows)
     normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
     pairs = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
     cosine = np.stack([(normals[i] * normals[j]).sum(axis=0) for i, j in pairs], axis=1)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
+from ..graphs import ordinary
 from ..skeletons import Skeleton, branch_graph, dual_complex
 from . import collapse
 from .criteria import face_angles, facet_measures
@@ -192,10 +193,11 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
     # The outer simplices take no part: only the inner ones are numbered, measured and removed.
     number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
     measure = alpha = None
+    scaled, _ = ordinary(t)  # criteria are angles, whatever the unit
     if strategy == "surface":
-        alpha = face_angles(t, inner, dihedral=printed)
+        alpha = face_angles(scaled, inner, dihedral=printed)
     else:
-        measure = facet_measures(t, inner)
+        measure = facet_measures(scaled, inner)
     level, kind, order, _ = collapse.run(
         strategy,
         printed,
@@ -203,6 +205,6 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         number[t.neighbors[inner]],
         measure,
         alpha,
-        t.circumradii[inner],
+        scaled.circumradii[inner],
     )
     return Hierarchy(P, strategy, criterion, level, kind, order)

@@ -203,3 +203,36 @@ def test_branches_along_their_edges():
         assert all(frozenset(pair) in edges for pair in zip(data["path"], data["path"][1:], strict=False))
         assert data["radii"] == skeleton.radii[data["path"]].tolist()
     assert sum(len(data["path"]) - 1 for _, _, data in graph.edges(data=True)) == len(edges)
+
+
+@pytest.mark.parametrize("exponent", [-900, -300, -201, -200, 7, 200, 201, 300])
+def test_a_power_of_two_changes_no_bit(exponent):
+    for shape, strategies in (
+        (psl.datasets.load("horse", n=60), ["branch"]),
+        (implicit_torus(), ["surface", "wireframe"]),
+    ):
+        P = psl.delaunay_shape(psl.conform(shape))
+        t = P.tessellation
+        scaled = psl.Tessellation(np.ldexp(t.points, exponent), t.simplices, t.neighbors)
+        for strategy in strategies:
+            h, same = psl.hierarchy(P, strategy), psl.hierarchy(psl.DelaunayShape(scaled, P.inner), strategy)
+            assert (h.level == same.level).all()
+            assert (h.order == same.order).all()
+        if abs(exponent) <= 300:
+            assert (np.ldexp(t.circumradii, exponent) == scaled.circumradii).all()
+
+
+@pytest.mark.parametrize("scale", [1e80, 1e-80, 1e100, 1e-100])
+def test_other_scales_change_the_topology_of_nothing(scale):
+    P = psl.delaunay(np.random.default_rng(3).normal(size=(12, 3)))
+    every = np.ones(len(P.simplices), dtype=bool)
+    for strategy in ("surface", "wireframe"):
+        level = psl.hierarchy(psl.DelaunayShape(P, every), strategy).level
+        scaled = psl.delaunay(P.points * scale)
+        assert psl.hierarchy(psl.DelaunayShape(scaled, every), strategy).level == pytest.approx(
+            level, rel=1e-6
+        )
+
+
+def implicit_torus():
+    return psl.implicit.solid(psl.implicit.torus(), n=200)
