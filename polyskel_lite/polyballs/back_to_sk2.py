@@ -1,4 +1,4 @@
-"""Sk2 read as the skeleton of a polyball (section 3.2), and the four conditions under which that is true."""
+"""Sk2 read as the skeleton of a polyball (section 3.2), and the five conditions under which that is true."""
 
 from __future__ import annotations
 
@@ -28,23 +28,27 @@ class Sk2Conditions(NamedTuple):
         Pairs of neighbouring Delaunay simplices with centres in the shape whose Voronoi edge leaves it (c).
     contained : (d,) int array
         Delaunay simplices with their centre outside the shape and their ball in Y_w (d).
+    touching : (e, 2) int array
+        Pairs of Delaunay simplices whose kept balls touch from outside in a point of the boundary of Y_w (e).
 
     Examples
     --------
     >>> import numpy as np
-    >>> Sk2Conditions(np.array([3]), np.zeros((0, 2)), np.zeros((0, 2), int), np.zeros(0, int)).hold
-    {'a': False, 'b': True, 'c': True, 'd': True}
+    >>> none = np.zeros((0, 2), int)
+    >>> Sk2Conditions(np.array([3]), np.zeros((0, 2)), none, np.zeros(0, int), none).hold
+    {'a': False, 'b': True, 'c': True, 'd': True, 'e': True}
     """
 
     swallowed: np.ndarray
     extra: np.ndarray
     crossing: np.ndarray
     contained: np.ndarray
+    touching: np.ndarray
 
     @property
     def hold(self) -> dict[str, bool]:
-        """Which of the conditions "a" to "d" hold."""
-        return {name: not len(found) for name, found in zip("abcd", self, strict=True)}
+        """Which of the conditions "a" to "e" hold."""
+        return {name: not len(found) for name, found in zip("abcde", self, strict=True)}
 
 
 def delaunay_balls(shape, E=None) -> Polyball:
@@ -80,11 +84,12 @@ def delaunay_balls(shape, E=None) -> Polyball:
 
 
 def sk2_conditions(shape, E=None) -> Sk2Conditions:
-    """Check, one by one, four conditions under which Sk2(X, E) is the skeleton of Y_w (section 3.2).
+    """Check, one by one, five conditions under which Sk2(X, E) is the skeleton of Y_w (section 3.2).
 
     The paper states the equality without any. In the plane it holds if (a) all samples of kept balls are on
     the boundary of Y_w, (b) all singular points of Y_w are samples, (c) Voronoi edges between centres in the
-    shape stay in it, and (d) no ball around a centre outside the shape lies in Y_w.
+    shape stay in it, (d) no ball around a centre outside the shape lies in Y_w, and (e) no two kept balls
+    touch from outside in a point of the boundary of Y_w: there its skeleton is cut, and Sk2 need not be.
 
     Parameters
     ----------
@@ -124,7 +129,8 @@ def sk2_conditions(shape, E=None) -> Sk2Conditions:
     corners = Y.singular_points()
     away, nearest = cKDTree(t.points[samples]).query(corners)
     extra = corners[away > _OFF * size[samples[nearest]]]
-    return Sk2Conditions(swallowed, extra, _leaving(shape, t, skeleton), _contained(t, skeleton, Y))
+    leaving, contained = _leaving(shape, t, skeleton), _contained(t, skeleton, Y)
+    return Sk2Conditions(swallowed, extra, leaving, contained, skeleton.simplices[Y.touching()])
 
 
 def _leaving(shape, t, skeleton) -> np.ndarray:

@@ -14,6 +14,9 @@ from .sphere_patches import patches
 from .union import BallUnion
 from .volumes import surface_area, volume
 
+# From so many units of length away the whole union is one point.
+_FAR = 1e100
+
 
 class BallBoundary:
     """A union of balls as what is on its boundary and can be measured there; `Polyball` checks the balls.
@@ -42,13 +45,54 @@ class BallBoundary:
     def union(self) -> BallUnion:
         """What the other modules compute with: the balls without copies, and all that is found only once.
 
+        Its unit of length is a power of two near the largest number (see `in_unit`), so that no square is too
+        large or too small for floating-point numbers, and no digit is lost.
+
         Examples
         --------
         >>> from polyskel_lite import Polyball
         >>> Polyball([(0, 0), (0, 0)], [1, 1]).union.rows.tolist()
         [0]
         """
-        return BallUnion(self.centers, self.radii)
+        return BallUnion(self.in_unit(self.centers), self.in_unit(self.radii))
+
+    @cached_property
+    def _exponent(self) -> int:
+        return int(np.frexp(max(np.abs(self.centers).max(), self.radii.max()))[1])
+
+    def in_unit(self, lengths) -> np.ndarray:
+        """Lengths and places in the unit of length of `union`.
+
+        Examples
+        --------
+        >>> from polyskel_lite import Polyball
+        >>> Polyball([(0, 0)], [2**900]).in_unit(np.array([2.0**900])).tolist()
+        [0.5]
+        """
+        with np.errstate(over="ignore"):  # places this far away are far away
+            return np.ldexp(lengths, -self._exponent)
+
+    def from_unit(self, lengths) -> np.ndarray:
+        """Lengths and places of `union` in the unit of the coordinates.
+
+        Examples
+        --------
+        >>> from polyskel_lite import Polyball
+        >>> Polyball([(0, 0)], [2**900]).from_unit(np.array([0.5])).tolist() == [2.0**900]
+        True
+        """
+        return np.ldexp(lengths, self._exponent)
+
+    def _measure(self, value: float, power: int, name: str) -> float:
+        """An area or volume in the unit of the coordinates."""
+        with np.errstate(over="ignore"):
+            found = float(np.ldexp(value, power * self._exponent))
+        if value and not np.finfo(float).tiny <= abs(found) < np.inf:
+            raise InputError(
+                f"the {name} of these balls, {value:.6g} times 2**{power * self._exponent}, is beyond the "
+                f"range of floating-point numbers; scale them by 2.0**{-self._exponent} first."
+            )
+        return found
 
     def arcs(self) -> Arcs:
         """List the circular arcs that make up the boundary of a planar polyball.
@@ -108,7 +152,7 @@ class BallBoundary:
         """
         self._only(3, "patches", "arcs")
         vertices, triangles, ball = patches(self.union, fineness)
-        return vertices + self.union.origin, triangles, self.union.rows[ball]
+        return self.from_unit(vertices + self.union.origin), triangles, self.union.rows[ball]
 
     def boundary(self):
         """The boundary in pieces of spheres: `arcs` in the plane, `patches` in space.
@@ -145,7 +189,7 @@ class BallBoundary:
         >>> sorted(Y.singular_points().round(9).tolist())
         [[1.0, -2.0], [1.0, 2.0]]
         """
-        return self.union.boundary.corners + self.union.origin
+        return self.from_unit(self.union.boundary.corners + self.union.origin)
 
     def exposed(self) -> np.ndarray:
         """Tell which balls have a piece of their own sphere on the boundary.
@@ -185,6 +229,29 @@ class BallBoundary:
         """
         return self.union.as_given(self.union.crossing())
 
+    def touching(self) -> np.ndarray:
+        """List the pairs of balls that touch from outside in a point of the boundary.
+
+        Appendix A leaves such polyballs out. A point that other balls cover all around does not count.
+
+        Returns
+        -------
+        (q, 2) int array
+            Sorted, i < j.
+
+        References
+        ----------
+        Attali and Montanvert, 1997, appendix A.2.
+
+        Examples
+        --------
+        >>> from polyskel_lite import Polyball
+        >>> discs = [(-1, 0), (1, 0), (0, 0)]
+        >>> Polyball(discs[:2], [1, 1]).touching().tolist(), len(Polyball(discs, [1, 1, 0.5]).touching())
+        ([[0, 1]], 0)
+        """
+        return self.union.as_given(self.union.boundary.touching)
+
     def boundary_distance(self, queries) -> np.ndarray:
         """Measure the distance from points to the boundary of the polyball.
 
@@ -210,10 +277,16 @@ class BallBoundary:
         array([2., 1., 3.])
         """
         union = self.union
-        queries = as_points(queries, name="queries", dimensions=(self.dimension,)) - union.origin
+        queries = as_points(queries, name="queries", dimensions=(self.dimension,))
+        places = self.in_unit(queries) - union.origin
+        near = np.abs(places).max(axis=1, initial=0) < _FAR
+        distance = np.hypot.reduce(queries, axis=1)
         if union.in_space:
-            return distance_to_boundary(queries, union)
-        return distance_to_arcs(queries, union.centers, union.radii, union.boundary.arcs)
+            distance[near] = self.from_unit(distance_to_boundary(places[near], union))
+        else:
+            arcs = distance_to_arcs(places[near], union.centers, union.radii, union.boundary.arcs)
+            distance[near] = self.from_unit(arcs)
+        return distance
 
     def area(self) -> float:
         """Compute the area of a planar polyball, or of the surface of one in space.
@@ -234,12 +307,13 @@ class BallBoundary:
         16.0
         """
         if self.union.in_space:
-            return surface_area(self.union)
+            return self._measure(surface_area(self.union), 2, "area")
         ball, start, end = self.union.boundary.arcs
         radius = self.union.radii[ball]
         x, y = self.union.centers[ball].T
         swing = x * (np.sin(end) - np.sin(start)) - y * (np.cos(end) - np.cos(start))
-        return float(np.sum(radius * (radius * (end - start) + swing)) / 2)
+        area = float(np.sum(radius * (radius * (end - start) + swing)) / 2)
+        return self._measure(area, 2, "area")
 
     def volume(self) -> float:
         """Compute the volume of a polyball in space, in closed form (see `polyskel_lite.polyballs.volumes`).
@@ -261,7 +335,7 @@ class BallBoundary:
         72.0
         """
         self._only(3, "volume", "area")
-        return volume(self.union)
+        return self._measure(volume(self.union), 3, "volume")
 
     def _only(self, dimension: int, method: str, instead: str) -> None:
         if self.dimension != dimension:

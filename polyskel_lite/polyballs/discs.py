@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .incidence import merged
-from .pairs import PRECISION, ROUNDING, WORST, contacts, lengths, meeting_pairs, relations, rounding
+from .incidence import contacts, merged
+from .pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, relations, rounding
 from .power import PowerTriangulation
 
 TURN = 2 * np.pi
@@ -202,11 +202,9 @@ def disc_boundary(
         gone |= ~np.isin(np.arange(len(radii)), power.faces(1))
     arcs, errors = uncovered(_covers(centers, radii, *crossing.T), np.flatnonzero(~gone))
     ends, slack = ends_of(arcs, errors, radii, lambda *places: _on_circles(centers, radii, *places))
-    touching, points, believed = contacts(centers, radii, touching)
-    # The point is on the boundary unless a third disc has it inside; then the arcs are far from it.
-    free = distance_to_arcs(points, centers, radii, arcs) <= 2 * believed
-    corners = merged(np.concatenate([ends, points[free]]), np.append(slack, np.zeros(free.sum())))
-    return DiscBoundary(arcs, corners, touching[free])
+    touching, points = contacts(centers, radii, touching)
+    corners = merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
+    return DiscBoundary(arcs, corners, touching)
 
 
 def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray, arcs: Arcs) -> np.ndarray:

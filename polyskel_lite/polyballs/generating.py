@@ -31,6 +31,35 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     return np.delete(first, np.maximum(i, j)[apart <= 1e-12 * np.minimum(radii[i], radii[j])])
 
 
+def alike(centers: np.ndarray, radii: np.ndarray, share: float) -> tuple[np.ndarray, np.ndarray]:
+    """Take one ball, a little larger, for all that differ from it by less than a share of its radius.
+
+    Returns
+    -------
+    rows : (m,) int array
+        The balls that are left, large ones first.
+    radii : (m,) float array
+        With these radii they hold those that are left out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> rows, radii = alike(np.array([(0.0, 0), (1e-7, 0), (1, 0)]), np.array([1, 1, 0.5]), 1e-6)
+    >>> rows.tolist(), radii.tolist()
+    ([0, 2], [1.0000001, 0.5])
+    """
+    tree, free, rows, grown = cKDTree(centers), np.ones(len(radii), dtype=bool), [], []
+    for ball in np.argsort(-radii, kind="stable"):
+        if free[ball]:
+            near = np.array(tree.query_ball_point(centers[ball], share * radii[ball]))
+            reach = lengths(centers[near] - centers[ball])
+            same = free[near] & (reach + radii[ball] - radii[near] <= share * radii[ball])
+            free[near[same]] = False
+            rows.append(ball)
+            grown.append((reach + radii[near])[same].max())
+    return np.array(rows), np.array(grown)
+
+
 def needed(centers, radii, exposed, hidden, room_in) -> np.ndarray:
     """Leave out balls that lie in the union of the others, smallest first; the indices of the rest, sorted.
 

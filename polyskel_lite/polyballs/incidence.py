@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..exact import components
-from .pairs import lengths, octaves, spread_out
+from ..exact import components, unique_rows
+from .pairs import PRECISION, believed, gaps, lengths, octaves, rounding, spread_out, units
 
 # A singular point is on every sphere that it misses by less than this share of the radius.
 _ON = 1e-9
@@ -14,6 +14,9 @@ _ON = 1e-9
 _FAR = 1e-14
 # Singular points nearer to each other than this share of the smallest ball through them are one.
 _NEAR = 1e-9
+# Directions whose cosine is less than this are at a right angle: a point where two balls touch is known to
+# 1e-12 of them, and directions from it lose some digits.
+_LEVEL = 1e-9
 
 
 class Incidence:
@@ -118,6 +121,74 @@ def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
     near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
     return points[_least(errors, components(len(points), near)[1])]
+
+
+def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray]:
+    """Of pairs that are `touching` (see `pairs.relations`) those that touch on the boundary, and where.
+
+    Around the point p where two balls touch, only their tangent plane is free. A step along v in it leaves
+    the ball k through p iff v · (c_k - p) <= 0. So p is on the boundary iff it is in no open ball and some v
+    leaves all of them (chapter A.1 of the book); then every two balls that touch in p are returned.
+
+    Examples
+    --------
+    Two discs, then a third one through their point, then a fourth one on the other side:
+
+    >>> centers, radii = np.array([(-1.0, 0), (1, 0), (0, 1), (0, -1)]), np.ones(4)
+    >>> for n in (2, 3, 4):
+    ...     contacts(centers[:n], radii[:n], np.array([(0, 1)]))[0].tolist()
+    [[0, 1]]
+    [[0, 1]]
+    []
+    """
+    slack = believed(centers, radii, *touching.T)
+    close = gaps(centers, radii, *touching.T) <= slack
+    touching, slack = touching[close], slack[close]
+    i, j = touching.T
+    share = radii[i] / (radii[i] + radii[j])
+    points = centers[i] + share[:, None] * (centers[j] - centers[i])
+    point, ball, inside = _through(points, slack, centers, radii)
+    shown = ~np.isin(np.arange(len(points)), point[inside])
+    first = np.searchsorted(point, np.arange(len(points) + 1))
+    more = [np.zeros((0, 2), dtype=np.int64)]
+    for row in np.flatnonzero(shown & (np.diff(first) > 2)):
+        balls = ball[first[row] : first[row + 1]]
+        normal = units(centers[j[row]] - points[row])
+        shown[row] = _can_be_left(units(centers[balls] - points[row]), normal)
+        if shown[row]:
+            more.append(balls[np.stack(np.triu_indices(len(balls), 1), axis=1)])
+    more = np.concatenate(more)
+    more = more[gaps(centers, radii, *more.T) >= -believed(centers, radii, *more.T)]
+    return unique_rows(np.concatenate([touching[shown], more]), len(radii))[0], points[shown]
+
+
+def _through(points, slack, centers, radii) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """All (point, ball) with the point in the ball or on it, sorted, and whether it is inside for sure."""
+    found = [np.zeros((0, 3))]
+    tree = cKDTree(points)
+    for group in octaves(radii):
+        reach = radii[group].max() * (1 + _ON) + slack.max(initial=0)
+        near = tree.sparse_distance_matrix(cKDTree(centers[group]), reach, output_type="ndarray")
+        found.append(np.column_stack([near["i"], group[near["j"]], near["v"]]))
+    found = np.concatenate(found)
+    found = found[np.lexsort((found[:, 1], found[:, 0]))]
+    point, ball = found[:, :2].astype(np.int64).T
+    out = found[:, 2] - radii[ball]
+    error = slack[point] + PRECISION * radii[ball] + rounding(centers, radii, ball, ball)
+    kept = out <= error
+    return point[kept], ball[kept], (out < -error)[kept]
+
+
+def _can_be_left(towards, normal) -> bool:
+    """Whether some direction across `normal` leads into none of the balls in the directions `towards`."""
+    if len(normal) == 2:
+        ways = np.array([(-normal[1], normal[0])])
+    else:
+        ways = np.cross(normal, towards)
+        size = lengths(ways)
+        ways = ways[size > _LEVEL] / size[size > _LEVEL, None]
+    ways = np.concatenate([ways, -ways])
+    return not len(ways) or bool((ways @ towards.T <= _LEVEL).all(axis=1).any())
 
 
 def _least(values, group) -> np.ndarray:

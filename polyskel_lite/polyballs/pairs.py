@@ -150,27 +150,12 @@ def relations(centers, radii, i, j) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     swallowed = np.zeros(len(radii), dtype=bool)
     swallowed[small[inside]] = True
     pairs = np.column_stack([i, j])[~swallowed[i] & ~swallowed[j]]
-    touch = gaps(centers, radii, *pairs.T) >= -_believed(centers, radii, *pairs.T)
+    touch = gaps(centers, radii, *pairs.T) >= -believed(centers, radii, *pairs.T)
     return swallowed, pairs[~touch], pairs[touch]
 
 
-def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of pairs that are `touching` (see `relations`) those that do not miss each other; where; the tolerance.
-
-    Examples
-    --------
-    >>> pairs, points, _ = contacts(np.array([(0.0, 0), (3, 0)]), np.array([1, 2]), np.array([(0, 1)]))
-    >>> pairs.tolist(), points.tolist()
-    ([[0, 1]], [[1.0, 0.0]])
-    """
-    believed = _believed(centers, radii, *touching.T)
-    close = gaps(centers, radii, *touching.T) <= believed
-    i, j = touching[close].T
-    share = radii[i] / (radii[i] + radii[j])
-    return touching[close], centers[i] + share[:, None] * (centers[j] - centers[i]), believed[close]
-
-
-def _believed(centers, radii, i, j) -> np.ndarray:
+def believed(centers, radii, i, j) -> np.ndarray:
+    """The length to which the distance between two balls is believed."""
     return PRECISION * np.minimum(radii[i], radii[j]) + rounding(centers, radii, i, j)
 
 

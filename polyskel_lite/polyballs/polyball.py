@@ -7,17 +7,18 @@ lie in the shape (section 3.2). What is on its boundary is in `boundary`, comput
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ..checks import as_points, as_radii
-from ..errors import InputError, TangentBallsError, TessellationError
+from ..errors import InputError, TangentBallsError
 from ..skeletons import Skeleton
 from .boundary import BallBoundary
 from .generating import isolated_lenses, lonely, needed
 from .pairs import in_any
-from .skeleton import ball_skeleton
+from .skeleton import ball_skeleton, verified_skeleton
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +103,7 @@ class Polyball(BallBoundary):
         array([ True, False])
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
-        return in_any(queries, self.centers, self.radii)
+        return in_any(self.in_unit(queries), self.in_unit(self.centers), self.in_unit(self.radii))
 
     def generating(self) -> np.ndarray:
         """Indices of balls that generate the polyball, none of which can be left out (definition 1).
@@ -129,9 +130,14 @@ class Polyball(BallBoundary):
         >>> Y.generating().tolist(), Y.exposed().tolist()
         ([0, 1, 2, 3], [True, True, True, False, False])
         """
+        return self.union.rows[self._needed]
+
+    @cached_property
+    def _needed(self) -> np.ndarray:
+        """The generating balls by their numbers in the union."""
         union = self.union
         hidden = ~np.isin(np.arange(len(union.rows)), union.power.faces(1))
-        return union.rows[needed(union.centers, union.radii, union.exposed, hidden, _room_in)]
+        return needed(union.centers, union.radii, union.exposed, hidden, _room_in)
 
     def minimal(self) -> Polyball:
         """Drop the balls that are not needed: see `generating`.
@@ -160,8 +166,8 @@ class Polyball(BallBoundary):
         >>> Polyball([(0, 0), (1, 0), (5, 0), (5, 0)], [1, 1, 1, 0.5]).disconnected().tolist()
         [2]
         """
-        rows = self.generating()
-        return rows[lonely(self.centers[rows], self.radii[rows])]
+        union, rows = self.union, self._needed
+        return union.rows[rows[lonely(union.centers[rows], union.radii[rows])]]
 
     def quasi_disconnected(self) -> np.ndarray:
         """Pairs of generating balls whose common part meets no third one (definition 3, as printed).
@@ -184,12 +190,12 @@ class Polyball(BallBoundary):
         >>> Polyball([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [1, 1, 1]).quasi_disconnected().tolist()
         []
         """
-        rows = self.generating()
+        union, rows = self.union, self._needed
         # A third ball on the circle is a third ball in the common part: only bare circles are candidates.
-        pairs = self.union.as_given(self.union.crossing(bare=True))
+        pairs = union.crossing(bare=True)
         pairs = pairs[np.isin(pairs, rows).all(axis=1)]
-        among = np.searchsorted(rows, pairs)
-        return pairs[isolated_lenses(self.centers[rows] - self.union.origin, self.radii[rows], among)]
+        alone = isolated_lenses(union.centers[rows], union.radii[rows], np.searchsorted(rows, pairs))
+        return union.as_given(pairs[alone])
 
     def skeleton(self, statement: str = "corrected") -> Skeleton:
         """Build the exact skeleton: the centres of all maximal balls (appendix A.2, theorems 3 and 4).
@@ -220,7 +226,9 @@ class Polyball(BallBoundary):
         Notes
         -----
         Singular points are known to rounding. A ball counts as passing through one that it misses by less
-        than 1e-9 of its radius, and Voronoi vertices closer than 1e-9 of their radius are one.
+        than 1e-9 of its radius, and Voronoi vertices closer than 1e-9 of their radius are one. The corrected
+        skeleton has the Betti numbers of the dual shape of the balls. Where it takes that, balls that differ
+        by less than 1e-8 (1e-7, 1e-6, 1e-5 if need be) of their radius are taken as one.
 
         References
         ----------
@@ -235,26 +243,25 @@ class Polyball(BallBoundary):
         """
         if statement not in ("corrected", "as printed"):
             raise InputError(f"unknown statement {statement!r}; choose corrected or as printed.")
-        union = self.union
-        if len(union.boundary.touching):
-            pairs = union.as_given(union.boundary.touching)
+        pairs = self.touching()
+        if len(pairs):
             i, j = pairs[0]
             raise TangentBallsError(
                 f"balls {i} and {j} touch without crossing, which appendix A leaves out: the skeleton of the "
                 "union would be cut there; enlarge or shrink one of them a little.",
                 pairs,
             )
-        if union.in_space and not union.boundary.sound:
-            raise TessellationError(
-                "too many of these balls nearly coincide, as around samples that lie on one sphere, and "
-                "rounding hides which of them are on the boundary; leave out balls that are almost equal."
-            )
-        printed = statement == "as printed"
-        alone = np.isin(union.rows, self.disconnected()) if printed else union.exposed
-        bridges = np.zeros((0, 2), dtype=np.int64)
+        skeleton = verified_skeleton(self.union) if statement == "corrected" else self._as_printed()
+        return replace(
+            skeleton, vertices=self.from_unit(skeleton.vertices), radii=self.from_unit(skeleton.radii)
+        )
+
+    def _as_printed(self) -> Skeleton:
+        """The skeleton by theorems 3 and 4 as printed, in the unit of the union."""
+        union = self.union
+        alone, bridges = np.isin(union.rows, self.disconnected()), np.zeros((0, 2), dtype=np.int64)
         if union.in_space:
-            given = self.quasi_disconnected() if printed else union.as_given(union.crossing(bare=True))
-            bridges = np.searchsorted(union.rows, given)
+            bridges = np.searchsorted(union.rows, self.quasi_disconnected())
         return ball_skeleton(union, alone, bridges)
 
 

@@ -13,8 +13,16 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from ..errors import TessellationError
-from ..exact import unique_rows
+from ..exact import components, unique_rows
 from .pairs import lengths
+
+# Balls that share a point, as Delaunay balls do, have it in common to rounding only: whether they do is asked
+# of powers larger and smaller by this share of the squared radius.
+_SHARED = 1e-9
+# A ball is in conflict with another one, in power, by more than this share of its squared radius.
+_TIE = 1e-12
+# A simplex with a smaller sine than the root of this has no orthogonal ball that rounding could tell.
+_FLAT = 1e-12
 
 
 class PowerTriangulation(NamedTuple):
@@ -162,6 +170,100 @@ def _hull(points, hide: bool) -> ConvexHull:
                 return hull
             reason = f"{lost} of {len(points)} places are too close together to be told apart"
     raise TessellationError(f"Qhull could not triangulate this: {reason}.")
+
+
+def homotopy(t: PowerTriangulation, radii: np.ndarray, slack: float = _SHARED) -> list[tuple[int, ...]]:
+    """The Betti numbers of the union of the balls by its dual shape, with balls a little smaller and larger.
+
+    A power may be off by `slack` times the squared radius. The dual shape has the simplices whose balls have
+    a point of their common power cell in common. That is so if their smallest orthogonal ball has a negative
+    power and no further ball is in conflict with it, or if it is so for a simplex above.
+
+    Returns
+    -------
+    list of two tuples
+        (b0, b1) in the plane, (b0, b1, b2) in space.
+
+    References
+    ----------
+    Edelsbrunner, The union of balls and its dual shape, 1995.
+
+    Examples
+    --------
+    Three discs around a gap:
+
+    >>> centers, radii = np.array([(1.1, 0), (-0.55, 0.9526), (-0.55, -0.9526)]), np.ones(3)
+    >>> homotopy(power_triangulation(centers, radii), radii)
+    [(1, 1), (1, 1)]
+    """
+    n = t.points.shape[1]
+    weights = np.append(radii**2, np.zeros(n + 1))
+    upper = np.sort(t.simplices[t.real()], axis=1)
+    shape, flat, found = np.zeros((2, 0), dtype=bool), np.zeros(0, dtype=bool), {}
+    for size in range(n + 1, 0, -1):
+        faces, below = _below(t, upper, size)
+        middle, power = _orthoballs(t.points, weights, faces)
+        opposite = upper.T.ravel()[: len(below)]
+        offset = t.points[opposite] - t.points[faces[below, 0]] - middle[below]
+        beyond = (offset**2).sum(axis=1) - weights[opposite] - power[below]
+        conflict = beyond < -_TIE * weights[opposite]
+        if size > n:
+            # Qhull gives all parts of a facet, flat ones too, one orthocenter.
+            flat = np.isinf(power)
+            power = ((t.orthocenters[t.real(), None] - t.points[faces]) ** 2).sum(axis=2)
+            power = (power - weights[faces]).mean(axis=1)
+        most, least = weights[faces].max(axis=1), weights[faces].min(axis=1)
+        own = np.array([power < -slack * most, power < slack * least])
+        own[:, below[conflict]] = False
+        for row, above in zip(own, np.tile(shape, size + 1), strict=True):
+            row[below[above]] = True
+        if size == n:  # what is flat encloses nothing, so that it is in as soon as its sides are
+            found[n + 1] = upper, shape | (own[:, below].reshape(2, n + 1, -1).all(axis=1) & flat)
+        upper, shape = faces, own
+        found[size] = faces, own
+    return [_betti(t, {size: faces[own[k]] for size, (faces, own) in found.items()}) for k in range(2)]
+
+
+def _below(t, upper, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """All simplices of some size, and which is opposite each corner of the ones above, by corners."""
+    if size == t.simplices.shape[1]:
+        return upper, np.zeros(0, dtype=np.int64)
+    rows = np.concatenate([np.delete(upper, corner, axis=1) for corner in range(size + 1)])
+    faces, which = unique_rows(np.concatenate([rows, t.faces(size)]), t.count)
+    return faces, which[: len(rows)]
+
+
+def _orthoballs(points, weights, faces) -> tuple[np.ndarray, np.ndarray]:
+    """The smallest balls orthogonal to the corners: middles as seen from the first corner, and powers."""
+    legs = points[faces[:, 1:]] - points[faces[:, :1]]
+    square = (legs**2).sum(axis=2)
+    right = (square - weights[faces[:, 1:]] + weights[faces[:, :1]]) / 2
+    gram = np.einsum("mij,mkj->mik", legs, legs)
+    flat = ~(np.linalg.det(gram) > _FLAT * square.prod(axis=1))
+    gram[flat] = np.eye(legs.shape[1])
+    middle = np.einsum("mi,mij->mj", np.linalg.solve(gram, right[..., None])[..., 0], legs)
+    return middle, np.where(flat, np.inf, (middle**2).sum(axis=1) - weights[faces[:, 0]])
+
+
+def _betti(t, shape) -> tuple[int, ...]:
+    """Betti numbers of a part of the triangulation, given as its simplices by size."""
+    used, ends = np.unique(shape[2], return_inverse=True)
+    pieces = components(len(used), ends.reshape(-1, 2))[0] + len(shape[1]) - len(used)
+    characteristic = sum((-1) ** (size - 1) * len(faces) for size, faces in shape.items())
+    if len(shape) == 3:
+        return pieces, pieces - characteristic
+    # A cavity is what can be walked through from gap to gap; beyond the last simplex is one more gap.
+    outside, base = len(t.simplices), len(t.points)
+    solid, walls = (np.sort(shape[size] @ base ** np.arange(size)) for size in (4, 3))
+    gap = np.append(~np.isin(np.sort(t.simplices, axis=1) @ base ** np.arange(4), solid), True)
+    doors = []
+    for corner in range(4):
+        wall = np.sort(np.delete(t.simplices, corner, axis=1), axis=1) @ base ** np.arange(3)
+        open_ = np.flatnonzero(~np.isin(wall, walls))
+        beyond = t.neighbors[open_, corner]
+        doors.append(np.column_stack([open_, np.where(beyond < 0, outside, beyond)]))
+    cavities = len(np.unique(components(outside + 1, np.concatenate(doors))[1][gap])) - 1
+    return pieces, pieces + cavities - characteristic, cavities
 
 
 def _simplex_around_the_unit_ball(n: int) -> np.ndarray:

@@ -38,6 +38,10 @@ _CONE = 1e-9
 _PLANE = 1e-12
 
 
+# If rounding spoils the skeleton, balls that differ by less than such shares of their radius count as one.
+_ALIKE = (0.0, 1e-8, 1e-7, 1e-6, 1e-5)
+
+
 class _Faces(NamedTuple):
     """Vertices of the skeleton on each Voronoi face of the singular points: rows (face, vertex), sorted."""
 
@@ -96,6 +100,70 @@ def ball_skeleton(union: BallUnion, alone, bridges) -> Skeleton:
         simplices=np.full(int(used.sum()), -1),
         edges=number[edges],
         polygons=Polygons(number[polygons.corners], polygons.sizes),
+    )
+
+
+def verified_skeleton(union: BallUnion) -> Skeleton:
+    """Build the skeleton of a union of balls with the Betti numbers of its dual shape.
+
+    Parameters
+    ----------
+    union : BallUnion
+        Without balls that touch on the boundary.
+
+    Returns
+    -------
+    Skeleton
+        Of the balls themselves as a rule. Where many nearly coincide, nobody can tell how their spheres
+        cross, and small false loops show that; then it is the skeleton with one ball for all that differ by
+        less than 1e-8 (1e-7, 1e-6, 1e-5 if need be) of their radius, by which the union changes at most.
+
+    Raises
+    ------
+    TessellationError
+        If none of these has the right Betti numbers.
+
+    Examples
+    --------
+    >>> verified_skeleton(BallUnion(np.array([(0.0, 0), (1, 0)]), np.ones(2))).edges.tolist()
+    [[0, 1]]
+    """
+    tried, true, reason = 0, None, None
+    for share in _ALIKE:
+        like = union.alike(share) if share else union
+        if len(like.radii) == tried or not like.sound:
+            continue
+        tried = len(like.radii)
+        bridges = like.crossing(bare=True) if like.in_space else np.zeros((0, 2), dtype=np.int64)
+        try:
+            skeleton = ball_skeleton(like, like.exposed, bridges)
+        except TessellationError as error:
+            reason = error
+            continue
+        betti, allowed = skeleton.betti(), like.homotopy()
+        true = true or union.homotopy()
+        # Circles in space may surround a point: it is no hole of the union, but one of its interior.
+        if betti in allowed[0 if like.in_space else 1 :] and (betti in true or _steady(like, share)):
+            return skeleton
+    raise TessellationError(_hidden(union)) from reason
+
+
+def _steady(union: BallUnion, share: float) -> bool:
+    """Whether no hole opens or closes if radii change by twice a share."""
+    low, high = union.homotopy(4 * share)
+    return low == high
+
+
+def _hidden(union: BallUnion) -> str:
+    """Why there is no skeleton."""
+    distance, other = cKDTree(union.centers).query(union.centers, k=min(2, len(union.radii)))
+    apart = (distance[:, -1] + np.abs(union.radii - union.radii[other[:, -1]])) / union.radii
+    least = apart.argmin()
+    i, j = np.sort(union.rows[[least, other[least, -1]]])
+    return (
+        "too many of these balls nearly coincide, as around samples that lie on one sphere, and rounding "
+        f"hides which of them are on the boundary; most alike are balls {i} and {j}, which differ by "
+        f"{apart[least]:.1e} of a radius; leave out balls that are almost equal."
     )
 
 

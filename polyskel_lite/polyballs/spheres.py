@@ -13,10 +13,9 @@ from scipy.spatial import cKDTree
 
 from ..exact import occurrences, unique_rows
 from .discs import Arcs, Covers, ends_of, uncovered
-from .incidence import merged
+from .incidence import contacts, merged
 from .pairs import (
     PRECISION,
-    contacts,
     crossings,
     frames,
     in_any,
@@ -133,8 +132,7 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     whole = ~crossed & ~gone
     whole[whole] = ~_covered(centers[whole] + radii[whole, None] * _POLE, centers, radii)
     circles = Circles(*(values[keep] for values in circles))
-    touching, points, _ = contacts(centers, radii, touching)
-    touching = touching[~_covered(points, centers, radii)]
+    touching, _ = contacts(centers, radii, touching)
     return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
 
 

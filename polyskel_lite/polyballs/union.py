@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from .discs import DiscBoundary, disc_boundary
-from .generating import distinct
+from .generating import alike, distinct
 from .incidence import Incidence
 from .pairs import circle_offset, lengths, pair_bound, relations
-from .power import PowerTriangulation, power_triangulation
+from .power import PowerTriangulation, homotopy, power_triangulation
 from .spheres import SphereBoundary, verified_boundary
 
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
@@ -126,6 +126,33 @@ class BallUnion:
         order = np.lexsort((heights, i))
         first = np.searchsorted(i[order], np.arange(len(self.radii) + 1))
         return Caps(first, (across / d[:, None])[order], heights[order])
+
+    @property
+    def sound(self) -> bool:
+        """Whether the arcs of the boundary close up and no two balls touch on it."""
+        boundary = self.boundary
+        return not len(boundary.touching) and not (self.in_space and not boundary.sound)
+
+    def alike(self, share: float) -> BallUnion:
+        """Nearly the same union, with one ball for all that differ by less than a share of their radius.
+
+        Examples
+        --------
+        >>> len(BallUnion(np.array([(0.0, 0), (1e-7, 0)]), np.ones(2)).alike(1e-6).radii)
+        1
+        """
+        rows, radii = alike(self.centers, self.radii, share)
+        return BallUnion(self._places[rows], radii)
+
+    def homotopy(self, *slack: float) -> list[tuple[int, ...]]:
+        """Betti numbers by the dual shape, with balls a little smaller and a little larger.
+
+        Examples
+        --------
+        >>> BallUnion(np.array([(0.0, 0), (2, 0)]), np.ones(2)).homotopy()
+        [(2, 0), (1, 0)]
+        """
+        return homotopy(self._triangulated, self.radii, *slack)
 
     def crossing(self, bare: bool = False) -> np.ndarray:
         """The pairs of balls whose spheres meet on the boundary, (m, 2) int array.

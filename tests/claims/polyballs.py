@@ -69,7 +69,7 @@ def union_of_inner_balls():
 def second_method_is_not_the_skeleton():
     """A strictly Gabriel hexagon whose reflex sample is inside Y_w: the exact skeleton of Y_w is another set.
 
-    Under the four conditions they are equal in the plane. In space three tetrahedra fulfil them all, and
+    Under the five conditions they are equal in the plane. In space three tetrahedra fulfil them all, and
     Sk2 is two sides of the triangle that is the skeleton of their balls.
     """
     shape = ring(SWALLOWED)
