@@ -149,3 +149,24 @@ def test_removals_of_the_gear():
         "04_2_homotopy",
         f"After {len(h.order)} of {len(h.level)} removals a ring of {ring.sum()} triangles is left",
     )
+
+
+def letter_a(angle: float) -> psl.Shape:
+    """The letter A of strips with round ends, its legs opening by an angle in degrees."""
+    size, width, half = 120.0, 9.0, np.radians(angle) / 2
+    legs = [size * np.array([side * np.sin(half), np.cos(half)]) for side in (-1, 1)]
+    wide = size * np.sin(half) + 2 * width
+    y, x = np.mgrid[-2 * width : size * np.cos(half) + 2 * width, -wide:wide]
+    places, tip = np.stack([x, y], axis=-1), np.zeros(2)
+    distance = np.full(x.shape, np.inf)
+    for a, b in ((tip, legs[0]), (tip, legs[1]), (0.62 * legs[0], 0.62 * legs[1])):
+        share = np.clip(((places - a) @ (b - a)) / ((b - a) @ (b - a)), 0, 1)[..., None]
+        distance = np.minimum(distance, np.linalg.norm(places - a - share * (b - a), axis=-1))
+    return psl.Shape.from_mask(width - distance, 0.0)
+
+
+@pytest.mark.parametrize(("angle", "ends"), [(21, 3), (44, 3), (57, 2), (69, 2)])
+def test_a_steep_letter_a_keeps_its_tip(angle, ends):
+    """Exercise ex-capitals (a)."""
+    h = psl.hierarchy(psl.conform(letter_a(angle)))
+    assert {h.branches(share * np.pi).graph["branches"] for share in (0.9, 0.94, 0.98)} == {ends}
