@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
+from ..checks import as_path
 from ..errors import InputError
 
 MESH_SUFFIXES = (".stl", ".ply", ".obj", ".off")
@@ -46,7 +49,7 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     ([0.0, 0.0, 6.0], (4, 3))
     """
     trimesh = _library("trimesh")
-    path = Path(path)
+    path = as_path(path)
     try:
         mesh = trimesh.load_mesh(path, process=False)
         vertices, faces = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
@@ -105,7 +108,8 @@ def write_surface(path: str | PathLike, points: np.ndarray, facets: np.ndarray) 
     if path.suffix.lower() in (".stl", ".off"):
         mesh = _library("trimesh").Trimesh(points, facets, process=False)
         options = {"digits": 30} if path.suffix.lower() == ".off" else {}
-        mesh.export(path, file_type=path.suffix.lower()[1:], **options)
+        with writing(path):
+            mesh.export(path, file_type=path.suffix.lower()[1:], **options)
     else:
         _write(path, points, np.zeros((0, 2), dtype=np.int64), facets, {})
 
@@ -146,13 +150,32 @@ def write_complex(path: str | PathLike, points, edges, polygons, data) -> None:
 
 
 def _checked(path, suffixes, what: str) -> Path:
-    path = Path(path)
+    path = as_path(path)
     if path.suffix.lower() not in suffixes:
         raise InputError(
             f"{path.name}: {what} cannot be written as {path.suffix or 'no suffix'!r}; "
             f"choose {', '.join(suffixes)}."
         )
     return path
+
+
+@contextmanager
+def writing(path) -> Iterator[Path]:
+    """The path of a file to write; what the system says against it becomes an `InputError`.
+
+    Examples
+    --------
+    >>> with writing("nowhere/a.stl") as path:  # doctest: +ELLIPSIS
+    ...     path.touch()
+    Traceback (most recent call last):
+    polyskel_lite.errors.InputError: a.stl cannot be written (No such file or directory); choose another ...
+    """
+    path = as_path(path)
+    try:
+        yield path
+    except OSError as error:
+        why = error.strerror or type(error).__name__
+        raise InputError(f"{path.name[:60]} cannot be written ({why}); choose another place.") from None
 
 
 def _library(name: str):
@@ -164,9 +187,14 @@ def _library(name: str):
 
 def _write(path: Path, points, edges, polygons, data) -> None:
     points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
-    if path.suffix.lower() == ".glb":
-        _write_glb(path, points, edges, polygons)
-        return
+    with writing(path):
+        if path.suffix.lower() == ".glb":
+            _write_glb(path, points, edges, polygons)
+        else:
+            _write_lines(path, points, edges, polygons, data)
+
+
+def _write_lines(path: Path, points, edges, polygons, data) -> None:
     meshio = _library("meshio")
     cells = []
     if len(edges) and path.suffix.lower() != ".obj":

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..checks import as_points
+from ..checks import as_points, check_squares
 from ..errors import InputError
 from .discs import Arcs, distance_to_arcs
 from .distance import distance_to_boundary
@@ -211,6 +211,7 @@ class BallBoundary:
         """
         union = self.union
         queries = as_points(queries, name="queries", dimensions=(self.dimension,)) - union.origin
+        check_squares(queries)
         if union.in_space:
             return distance_to_boundary(queries, union)
         return distance_to_arcs(queries, union.centers, union.radii, union.boundary.arcs)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..checks import as_points, as_radii
+from ..checks import as_choice, as_points, as_radii, check_squares
 from ..errors import InputError, TangentBallsError, TessellationError
 from ..skeletons import Skeleton
 from .boundary import BallBoundary
@@ -70,6 +70,7 @@ class Polyball(BallBoundary):
         if not len(centers):
             raise InputError("centers is empty; a polyball needs at least one ball.")
         radii = as_radii(self.radii, len(centers))
+        check_squares(centers, radii)
         centers.setflags(write=False)
         radii.setflags(write=False)
         object.__setattr__(self, "centers", centers)
@@ -102,6 +103,7 @@ class Polyball(BallBoundary):
         array([ True, False])
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
+        check_squares(queries)
         return in_any(queries, self.centers, self.radii)
 
     def generating(self) -> np.ndarray:
@@ -233,8 +235,7 @@ class Polyball(BallBoundary):
         >>> row.skeleton().edges.tolist(), len(row.skeleton("as printed").vertices)
         ([[0, 1], [1, 2]], 0)
         """
-        if statement not in ("corrected", "as printed"):
-            raise InputError(f"unknown statement {statement!r}; choose corrected or as printed.")
+        as_choice(statement, "statement", ("corrected", "as printed"))
         union = self.union
         if len(union.boundary.touching):
             pairs = union.as_given(union.boundary.touching)
