@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .boxes import overlapping_pairs
+from .boxes import overlapping_pairs, self_overlaps
 from .predicates import in_gabriel_ball, orientation
 
 
@@ -58,8 +58,8 @@ def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | N
     """
     ends = points[facets]
     low, high = ends.min(axis=1), ends.max(axis=1)
-    for i, j in overlapping_pairs(low, high, low, high):
-        i, j = i[i < j], j[i < j]
+    flat = np.zeros((len(facets), 1))
+    for i, j in self_overlaps(np.hstack([low, flat]), np.hstack([high, flat])):
         shared = facets[i][:, :, None] == facets[j][:, None, :]
         apart = ~shared.any(axis=(1, 2))
         bad = np.zeros(len(i), dtype=bool)

@@ -153,7 +153,7 @@ def _checked(path, suffixes, what: str) -> Path:
     path = as_path(path)
     if path.suffix.lower() not in suffixes:
         raise InputError(
-            f"{path.name}: {what} cannot be written as {path.suffix or 'no suffix'!r}; "
+            f"{path.name[:60]}: {what} cannot be written as {path.suffix[:9] or 'no suffix'!r}; "
             f"choose {', '.join(suffixes)}."
         )
     return path

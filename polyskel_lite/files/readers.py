@@ -97,7 +97,7 @@ def read_file(
     suffix = path.suffix.lower()
     known = (".geojson", ".json", ".svg", ".npz", *MESH_SUFFIXES, *_PICTURES)
     if suffix not in known:
-        raise InputError(f"no reader for {suffix or 'no suffix'!r}; it reads {', '.join(known)}.")
+        raise InputError(f"no reader for {suffix[:9] or 'no suffix'!r}; it reads {', '.join(known)}.")
     try:
         if not path.is_file():
             raise InputError(f"there is no such file; check the path {shown(str(path))}.")

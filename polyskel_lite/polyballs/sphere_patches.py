@@ -23,7 +23,7 @@ from .pairs import spread_out, units
 from .spheres import SphereBoundary
 from .union import BallUnion, Caps
 
-#: Triangles on all spheres together: one million take half a minute, and no screen shows more.
+#: Triangles on all spheres together: one million take ten seconds, and no screen shows more.
 MOST_TRIANGLES = 1_000_000
 _EDGE = np.arctan(2)  # of the icosahedron in the unit sphere, as an angle
 _COARSEST = 2  # edges of the icosahedron are cut into so many at least: 42 vertices on a whole sphere

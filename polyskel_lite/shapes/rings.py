@@ -6,10 +6,14 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from ..checks import MOST_NUMBERS, as_points, near, shown
+from ..checks import as_points, near, shown
 from ..errors import InputError, ShapeError
 from ..exact import first_meeting, occurrences, odd_around, orientation
+
+#: Rings of one shape: these take a minute or two. A picture of noise has so many in 1500 x 1500 pixels.
+MOST_RINGS = 500_000
 
 
 def check_closed(n: int, facets: np.ndarray) -> None:
@@ -63,10 +67,21 @@ def wrongly_turned(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     [[True], [False]]
     """
     turn = np.array([turn_of(ring) for ring in rings])
-    segments = np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
-    owner = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
-    hole = odd_around(segments, owner, np.array([ring[0] for ring in rings]))
+    first = np.array([ring[0] for ring in rings])
+    around = np.flatnonzero(_may_surround(rings, first)).tolist()
+    segments = [np.stack([rings[k], np.roll(rings[k], -1, axis=0)], axis=1) for k in around]
+    owner = np.repeat(around, [len(rings[k]) for k in around]).astype(np.int64)
+    hole = odd_around(np.concatenate([np.zeros((0, 2, 2)), *segments]), owner, first)
     return (turn > 0) == hole, hole
+
+
+def _may_surround(rings: list[np.ndarray], first: np.ndarray) -> np.ndarray:
+    """Which rings have the first vertex of another one near their box; of thousands of specks few have."""
+    low, high = (np.array([getattr(ring, which)(axis=0) for ring in rings]) for which in ("min", "max"))
+    middle, reach = (low + high) / 2, (high - low).max(axis=1)  # twice of what is needed, for rounding
+    size = max(np.abs(low).max(), np.abs(high).max()) or 1.0
+    tree = cKDTree(first / size)
+    return tree.query_ball_point(middle / size, reach / size, p=np.inf, return_length=True) > 1
 
 
 def oriented(rings, names=None) -> tuple[list[np.ndarray], Callable[[int], tuple[str, int]]]:
@@ -123,10 +138,12 @@ def _listed(rings) -> list:
         raise InputError(
             f"rings is {shown(rings)}; pass a list of rings, such as [[(0, 0), (1, 0), (0, 1)]]."
         )
-    if np.ndim(rings) == 0 if isinstance(rings, np.ndarray) else not len(rings):
+    if (isinstance(rings, np.ndarray) and not rings.ndim) or not len(rings):
         raise InputError("rings is empty; pass at least one ring of three vertices.")
-    if len(rings) > MOST_NUMBERS // 6:
-        raise InputError(f"there are {len(rings):,} rings, and {MOST_NUMBERS // 6:,} are the most.")
+    if len(rings) > MOST_RINGS:
+        raise InputError(
+            f"there are {len(rings):,} rings, and {MOST_RINGS:,} are the most; leave small ones out."
+        )
     return list(rings)
 
 

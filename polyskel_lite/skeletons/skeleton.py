@@ -311,13 +311,18 @@ class Skeleton:
         path = as_path(path)
         try:
             data = read_arrays(path)
+            needed = {*_ARRAYS, "polygon_corners", "polygon_sizes"}
+            if "tessellation_points" in data:
+                needed |= {f"tessellation_{name}" for name in _TESSELLATION}
+            if missing := sorted(needed - data.keys()):
+                raise InputError(f"there is no array {missing[0]}.")
             polygons = Polygons(data["polygon_corners"], data["polygon_sizes"])
             arrays = {name: data[name] for name in _ARRAYS}
             tessellation = None
             if "tessellation_points" in data:
                 tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
             return cls(**arrays, polygons=polygons, tessellation=tessellation)
-        except (KeyError, InputError) as error:
+        except InputError as error:
             raise InputError(
                 f"{path.name[:60]} is not a skeleton written by Skeleton.save, or damaged: {error}"
             ) from None
