@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
@@ -48,13 +49,16 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     >>> vertices[3].tolist(), faces.shape
     ([0.0, 0.0, 6.0], (4, 3))
     """
-    trimesh = _library("trimesh")
+    trimesh, log = _library("trimesh"), logging.getLogger("trimesh")
+    loud, log.disabled = log.disabled, True  # it would print tracebacks of what is refused here in words
     path = as_path(path)
     try:
         mesh = trimesh.load_mesh(path, process=False)
         vertices, faces = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
     except Exception as error:  # the readers raise whatever a broken file makes them stumble over
         raise InputError(f"the mesh cannot be read ({error}); save it again.") from None
+    finally:
+        log.disabled = loud
     if not len(vertices) or not len(faces):
         raise InputError("there is no triangle in it; save the surface, not only its points.")
     wrong = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))

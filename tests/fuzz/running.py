@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 import multiprocessing
+import os
 import signal
 import sys
+import tempfile
 import time
 import traceback
 import warnings
@@ -83,6 +85,7 @@ def _limit() -> None:
 
 def _work(family: str, seed: int, numbers: range, pipe) -> None:
     _limit()
+    os.chdir(tempfile.mkdtemp(prefix="fuzz-"))  # "words" is the name of a file too
     for number in numbers:
         begin = time.perf_counter()
         with alarm():

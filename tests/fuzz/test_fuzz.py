@@ -24,7 +24,8 @@ def test_nothing_is_raw_late_or_wrong(family):
     assert min(tally.counts["answered"], tally.counts["refused"]) > COUNTS[family] // 20
 
 
-def test_the_same_seed_makes_the_same_cases():
+def test_the_same_seed_makes_the_same_cases(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     for family in FAMILIES:
         assert running.outcome(family, SEED, 3) == running.outcome(family, SEED, 3)
 
