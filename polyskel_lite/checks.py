@@ -206,7 +206,7 @@ def _check_objects(array: np.ndarray, name: str, instead: str) -> None:
 
 def _inexact(name: str, place: list, value) -> InputError:
     return InputError(
-        f"{name}{place} is {shown(value)}, an integer above 2**53, and floats skip some of these; "
+        f"{name}{place} is {shown(int(value))}, an integer above 2**53, and floats skip some of these; "
         "subtract an origin first."
     )
 

@@ -49,7 +49,7 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     >>> vertices[3].tolist(), faces.shape
     ([0.0, 0.0, 6.0], (4, 3))
     """
-    trimesh, log = _library("trimesh"), logging.getLogger("trimesh")
+    trimesh, log = _library("trimesh"), logging.getLogger("trimesh.util")
     loud, log.disabled = log.disabled, True  # it would print tracebacks of what is refused here in words
     path = as_path(path)
     try:
