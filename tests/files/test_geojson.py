@@ -108,3 +108,20 @@ def test_crossing_outline_keeps_its_error_class_and_names_the_file(tmp_path):
     bow = {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [1, 0], [0, 1], [0, 0]]]}
     with pytest.raises(ShapeError, match=r"^bow\.json: segment"):
         read_text(tmp_path, "bow.json", bow)
+
+
+def test_rings_that_cross_are_named_by_feature(tmp_path):
+    part = [[x + 3, y + 1] for x, y in SQUARE]
+    parts = [
+        {"type": "Polygon", "coordinates": [ring]}
+        for ring in ([[9, 9], [9, 8], [8, 9], [9, 9]], SQUARE, part)
+    ]
+    features = [{"type": "Feature", "geometry": geometry} for geometry in parts]
+    with pytest.raises(ShapeError, match=r"of feature 1, ring 0 meets segment .* of feature 2, ring 0 near"):
+        read_text(tmp_path, "a.json", {"type": "FeatureCollection", "features": features})
+
+
+@pytest.mark.parametrize("kind", [[], {}, None, 3, "x" * 1000])
+def test_a_type_that_is_no_name(tmp_path, kind):
+    with pytest.raises(InputError, match=r"the file is (no GeoJSON object|a x{40});"):
+        read_text(tmp_path, "a.json", {"type": kind, "coordinates": []})
