@@ -4,10 +4,12 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 JOBS   ?= 2
 LARGEST ?= 200000
+COUNT  ?= 10000
+SEED   ?= 0
 FIRST  := notebooks/01_introduction.ipynb
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint unit chapters browser lab lite figures bench run lock clean
+.PHONY: help book test lint unit chapters browser lab lite figures bench fuzz run lock clean
 
 help:  ## list the commands
 	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
@@ -64,6 +66,9 @@ figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to fig
 
 bench: $(VENV)/.installed  ## measure every stage against scipy's Delaunay (see benchmarks/README.md)
 	@$(BIN)/python benchmarks/stages.py --largest $(LARGEST)
+
+fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each from SEED (twenty minutes)
+	@PYTHONPATH=tests $(BIN)/python -m fuzz --count $(COUNT) --seed $(SEED) --report benchmarks/fuzz.csv
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..checks import near
+from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
 from ..errors import InputError, TessellationError
 from ..exact import point_segment_distance
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
@@ -44,8 +44,12 @@ def missing_facets(
     ([0], [])
     """
     check_shape(shape)
-    _check_name(of)
-    tessellation = tessellation or delaunay(shape.points, shape.facets)
+    as_choice(of, "graph", _GRAPHS)
+    if tessellation is None:
+        tessellation = delaunay(shape.points, shape.facets)
+    as_instance(tessellation, Tessellation, "tessellation", "delaunay(shape.points, shape.facets), or None")
+    if not np.array_equal(tessellation.points, shape.points):
+        raise InputError("tessellation is not that of the shape's vertices; leave it out.")
     rows = facet_rows(tessellation, shape.facets)
     missing = rows < 0
     if of == "gabriel":
@@ -99,8 +103,10 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
     (1, 0)
     """
     check_shape(shape)
-    to = to or ("gabriel" if shape.dimension == 2 else "delaunay")
-    _check_name(to)
+    if to is None:
+        to = "gabriel" if shape.dimension == 2 else "delaunay"
+    as_choice(to, "graph", _GRAPHS)
+    limit = _limit(limit)
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)
     for stage in _stages(shape, to, limit):
@@ -164,10 +170,17 @@ def conform_stages(shape: Shape, to: str = "gabriel", limit: int | None = None) 
     [(3, 1, 2), (7, 0, 0)]
     """
     check_shape(shape)
-    _check_name(to)
+    as_choice(to, "graph", _GRAPHS)
     if shape.dimension != 2:
         raise InputError("the rounds of refinement are shown for shapes in the plane; use conform(shape).")
-    return _stages(shape, to, limit)
+    return _stages(shape, to, _limit(limit))
+
+
+def _limit(limit):
+    if limit is not None:
+        what = f"a whole number of vertices, 0 to {MOST_POINTS:,}, or None"
+        limit = as_number(limit, "limit", what, 0, MOST_POINTS, whole=True)
+    return limit
 
 
 def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
@@ -249,11 +262,6 @@ def _cut_corner(corner, points, facets, cuts) -> None:
             cuts[k] = both[np.argsort(along)]
         else:
             cuts[k] = new[None]
-
-
-def _check_name(graph: str) -> None:
-    if graph not in _GRAPHS:
-        raise InputError(f"unknown graph {graph!r}; choose one of {', '.join(_GRAPHS)}.")
 
 
 # Samples on the circle count: the strict rule of Theorems 1 and 2.

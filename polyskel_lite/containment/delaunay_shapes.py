@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..checks import near
+from ..checks import as_array, as_instance, near
 from ..errors import ContourContainmentError, InputError
 from ..exact import components, orientation
 from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
@@ -34,7 +34,10 @@ class DelaunayShape:
     inner: np.ndarray
 
     def __post_init__(self):
-        inner = np.asarray(self.inner)
+        as_instance(
+            self.tessellation, Tessellation, "tessellation", "a Tessellation, such as delaunay(points)"
+        )
+        inner = as_array(self.inner, "inner", "one bool for each simplex")
         if inner.dtype != bool or inner.shape != (len(self.tessellation.simplices),):
             raise InputError(
                 f"inner has shape {inner.shape} and type {inner.dtype}; pass one bool for each of the "

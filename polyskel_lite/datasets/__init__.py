@@ -18,9 +18,11 @@ import tomllib
 from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
+from numbers import Integral
 
 import numpy as np
 
+from ..checks import shown
 from ..errors import InputError
 from ..shapes import Shape
 
@@ -47,8 +49,8 @@ def names(dimension: int | None = 2) -> list[str]:
     >>> "horse" in names()
     True
     """
-    if dimension not in (2, 3, None):
-        raise InputError(f"dimension is {dimension!r}; choose 2 (outlines), 3 (solids) or None (all).")
+    if not (dimension is None or (isinstance(dimension, Integral) and dimension in (2, 3))):
+        raise InputError(f"dimension is {shown(dimension)}; choose 2 (outlines), 3 (solids) or None (all).")
     return sorted(
         name for name in _records() if dimension is None or _arrays(name).keys() >= _KEYS[dimension]
     )
@@ -91,10 +93,10 @@ def load(name: str, n: int | None = None) -> Shape:
     _record(name)
     if name in names(3):
         arrays = _arrays(name)
-        if n not in (None, len(arrays["V"])):
+        if n is not None and not (isinstance(n, Integral) and n == len(arrays["V"])):
             raise InputError(
-                f"{name} is stored with {len(arrays['V'])} samples and not made anew with {n!r}; leave n "
-                "out, or make a solid of any size with polyskel_lite.implicit.solid."
+                f"{name} is stored with {len(arrays['V'])} samples and not made anew with {shown(n)}; leave "
+                "n out, or make a solid of any size with polyskel_lite.implicit.solid."
             )
         return Shape(arrays["V"], arrays["F"])
     if n is None:
@@ -147,10 +149,10 @@ def _records() -> dict[str, dict[str, str]]:
 
 def _record(name: str) -> dict[str, str]:
     records = _records()
-    if name not in records:
-        near = get_close_matches(str(name).lower(), records, n=1, cutoff=0.0)[0]
+    if not isinstance(name, str) or name not in records:
+        near = get_close_matches(shown(name).lower(), records, n=1, cutoff=0.0)[0]
         raise InputError(
-            f"There is no shape called {name!r}; did you mean {near!r}? The names are "
+            f"There is no shape called {shown(name)}; did you mean {near!r}? The names are "
             f"{', '.join(names(2) + names(3))}."
         )
     return records[name]

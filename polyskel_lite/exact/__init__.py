@@ -25,6 +25,7 @@ from .segments import (
     first_meeting,
     locate,
     nearest_on_segments,
+    odd_around,
     point_segment_distance,
 )
 from .topology import betti_numbers, components, euler_characteristic, occurrences

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
+from ..checks import check_squares
 from .segments import nearest_on_segments
 from .triangles import nearest_on_triangles
 
@@ -55,6 +56,7 @@ def nearest_facets(facets: np.ndarray, queries: np.ndarray) -> tuple[np.ndarray,
     [2.0, 5.0]
     """
     facets, queries = np.asarray(facets, dtype=np.float64), np.asarray(queries, dtype=np.float64)
+    check_squares(facets, queries)
     n = facets.shape[1]
     best, corner = cKDTree(facets.reshape(-1, n)).query(queries)
     facet = corner // n

@@ -7,6 +7,8 @@ from itertools import combinations
 
 import numpy as np
 
+from ..checks import as_indices, shown
+from ..errors import InputError
 from .arrays import unique_rows
 
 
@@ -28,8 +30,13 @@ class Polygons(Sequence):
     """
 
     def __init__(self, corners=(), sizes=()):
-        self.corners = np.asarray(corners, dtype=np.intp)
-        self.sizes = np.asarray(sizes, dtype=np.intp)
+        most = np.iinfo(np.intp).max
+        self.corners = as_indices(corners, "polygon_corners", most).astype(np.intp, copy=False)
+        self.sizes = as_indices(sizes, "polygon_sizes", most, low=3).astype(np.intp, copy=False)
+        if self.sizes.sum() != len(self.corners):
+            raise InputError(
+                f"polygons of {self.sizes.sum()} corners in all have {len(self.corners)} corners."
+            )
         self._ends = np.cumsum(self.sizes)
 
     @classmethod
@@ -43,7 +50,9 @@ class Polygons(Sequence):
         """
         if isinstance(polygons, Polygons):
             return polygons
-        polygons = [np.asarray(polygon, dtype=np.int64) for polygon in polygons]
+        if not isinstance(polygons, (Sequence, np.ndarray)) or isinstance(polygons, (str, bytes)):
+            raise InputError(f"polygons is {shown(polygons)}; pass a list of lists of vertices.")
+        polygons = [as_indices(polygon, f"polygon {k}", 2**31) for k, polygon in enumerate(polygons)]
         return cls(np.concatenate(polygons) if polygons else (), [len(polygon) for polygon in polygons])
 
     def __len__(self) -> int:

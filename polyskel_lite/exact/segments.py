@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .boxes import overlapping_pairs
+from .boxes import overlapping_pairs, self_overlaps
 from .predicates import in_gabriel_ball, orientation
 
 
@@ -58,8 +58,8 @@ def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | N
     """
     ends = points[facets]
     low, high = ends.min(axis=1), ends.max(axis=1)
-    for i, j in overlapping_pairs(low, high, low, high):
-        i, j = i[i < j], j[i < j]
+    flat = np.zeros((len(facets), 1))
+    for i, j in self_overlaps(np.hstack([low, flat]), np.hstack([high, flat])):
         shared = facets[i][:, :, None] == facets[j][:, None, :]
         apart = ~shared.any(axis=(1, 2))
         bad = np.zeros(len(i), dtype=bool)
@@ -123,6 +123,41 @@ def locate(segments: np.ndarray, queries: np.ndarray) -> np.ndarray:
     result = np.where(winding != 0, 1, -1).astype(np.int8)
     result[touching] = 0
     return result
+
+
+def odd_around(segments: np.ndarray, owner: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Whether an odd number of closed curves runs around each query, (k,) bool; exact.
+
+    Parameters
+    ----------
+    segments : (m, 2, 2) float array
+    owner : (m,) int array
+        The curve of each segment. Curve i does not count for query i, which may lie on it.
+    queries : (k, 2) float array
+        On no other curve.
+
+    Examples
+    --------
+    >>> square = np.array([[0, 0], [3, 0], [3, 3], [0, 3]], dtype=float)
+    >>> rings = np.concatenate([square, square / 3 + 1])
+    >>> ends = np.concatenate([np.roll(part, -1, axis=0) for part in (rings[:4], rings[4:])])
+    >>> odd_around(np.stack([rings, ends], axis=1), np.repeat([0, 1], 4), rings[[0, 4]]).tolist()
+    [False, True]
+    """
+    odd = np.zeros(len(queries), dtype=bool)
+    low, high = segments.min(axis=1), segments.max(axis=1)
+    for i, j in overlapping_pairs(queries[:, 1:], queries[:, 1:], low[:, 1:], high[:, 1:]):
+        x, y = queries[i].T
+        # The ray to the right; of the two ends of a segment only the lower one belongs to it.
+        met = (low[j, 1] <= y) & (y < high[j, 1]) & (high[j, 0] >= x) & (owner[j] != i)
+        i, j, x, y = i[met], j[met], x[met], y[met]
+        ahead = low[j, 0] > x
+        unsure = np.flatnonzero(~ahead)
+        a, b = segments[j[unsure]].transpose(1, 0, 2)
+        side = orientation(np.stack([a, b, queries[i[unsure]]], axis=1))
+        ahead[unsure] = side == np.where(a[:, 1] < b[:, 1], 1, -1)
+        odd ^= np.bincount(i[ahead], minlength=len(queries)) % 2 == 1
+    return odd
 
 
 def point_segment_distance(queries: np.ndarray, segments: np.ndarray) -> np.ndarray:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
+from ..checks import as_path
 from ..errors import InputError
 
 MESH_SUFFIXES = (".stl", ".ply", ".obj", ".off")
@@ -45,13 +49,16 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     >>> vertices[3].tolist(), faces.shape
     ([0.0, 0.0, 6.0], (4, 3))
     """
-    trimesh = _library("trimesh")
-    path = Path(path)
+    trimesh, log = _library("trimesh"), logging.getLogger("trimesh.util")
+    loud, log.disabled = log.disabled, True  # it would print tracebacks of what is refused here in words
+    path = as_path(path)
     try:
         mesh = trimesh.load_mesh(path, process=False)
         vertices, faces = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
     except Exception as error:  # the readers raise whatever a broken file makes them stumble over
         raise InputError(f"the mesh cannot be read ({error}); save it again.") from None
+    finally:
+        log.disabled = loud
     if not len(vertices) or not len(faces):
         raise InputError("there is no triangle in it; save the surface, not only its points.")
     wrong = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
@@ -105,7 +112,8 @@ def write_surface(path: str | PathLike, points: np.ndarray, facets: np.ndarray) 
     if path.suffix.lower() in (".stl", ".off"):
         mesh = _library("trimesh").Trimesh(points, facets, process=False)
         options = {"digits": 30} if path.suffix.lower() == ".off" else {}
-        mesh.export(path, file_type=path.suffix.lower()[1:], **options)
+        with writing(path):
+            mesh.export(path, file_type=path.suffix.lower()[1:], **options)
     else:
         _write(path, points, np.zeros((0, 2), dtype=np.int64), facets, {})
 
@@ -146,13 +154,32 @@ def write_complex(path: str | PathLike, points, edges, polygons, data) -> None:
 
 
 def _checked(path, suffixes, what: str) -> Path:
-    path = Path(path)
+    path = as_path(path)
     if path.suffix.lower() not in suffixes:
         raise InputError(
-            f"{path.name}: {what} cannot be written as {path.suffix or 'no suffix'!r}; "
+            f"{path.name[:60]}: {what} cannot be written as {path.suffix[:9] or 'no suffix'!r}; "
             f"choose {', '.join(suffixes)}."
         )
     return path
+
+
+@contextmanager
+def writing(path) -> Iterator[Path]:
+    """The path of a file to write; what the system says against it becomes an `InputError`.
+
+    Examples
+    --------
+    >>> with writing("nowhere/a.stl") as path:  # doctest: +ELLIPSIS
+    ...     path.touch()
+    Traceback (most recent call last):
+    polyskel_lite.errors.InputError: a.stl cannot be written (No such file or directory); choose another ...
+    """
+    path = as_path(path)
+    try:
+        yield path
+    except OSError as error:
+        why = error.strerror or type(error).__name__
+        raise InputError(f"{path.name[:60]} cannot be written ({why}); choose another place.") from None
 
 
 def _library(name: str):
@@ -164,9 +191,14 @@ def _library(name: str):
 
 def _write(path: Path, points, edges, polygons, data) -> None:
     points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
-    if path.suffix.lower() == ".glb":
-        _write_glb(path, points, edges, polygons)
-        return
+    with writing(path):
+        if path.suffix.lower() == ".glb":
+            _write_glb(path, points, edges, polygons)
+        else:
+            _write_lines(path, points, edges, polygons, data)
+
+
+def _write_lines(path: Path, points, edges, polygons, data) -> None:
     meshio = _library("meshio")
     cells = []
     if len(edges) and path.suffix.lower() != ".obj":

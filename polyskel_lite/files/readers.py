@@ -9,26 +9,26 @@ flipped.
 from __future__ import annotations
 
 import json
-import zipfile
-import zlib
 from collections.abc import Iterator
-from numbers import Real
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from ..errors import InputError
+from ..checks import as_flag, as_floats, as_number, as_path, shown
+from ..errors import InputError, PolyskelError
+from .arrays import read_arrays
 from .meshes import MESH_SUFFIXES, read_mesh
 from .svg import distinct, svg_rings
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".pgm", ".pbm", ".ppm")
-# What np.load raises for a file that is cut short, has a byte changed, or is none of its files at all.
-_BROKEN_ARRAYS = (
-    *(OSError, ValueError, TypeError, IndexError, EOFError, NotImplementedError, RuntimeError),
-    *(OverflowError, zipfile.BadZipFile, zlib.error),
-)
+# Only these are tried, whatever the file is called: Pillow would start Ghostscript for PostScript.
+_FORMATS = ("PNG", "JPEG", "BMP", "GIF", "TIFF", "WEBP", "PPM")
+#: Bytes of a file: parsing text takes ten times as much memory.
+MOST_BYTES = 2**28
+#: Pixels of a picture: contours of more take minutes. 16 million are 4000 x 4000.
+MOST_PIXELS = 16_000_000
 # Values nearer to the level than this share of the largest difference are moved away from it.
 _NUDGE = 1e-4
 
@@ -69,11 +69,12 @@ def read_file(
     kind : "rings", "mesh" or "facets"
         What the arrays are: arguments of `Shape.from_rings`, of `Shape.from_mesh` or of `Shape` itself.
     arrays : tuple
+        Outlines from GeoJSON and SVG come with the names of their rings, for messages.
 
     Raises
     ------
     InputError
-        If the file is missing, empty or broken, has no closed outline, or is of a kind not read.
+        If the file is missing, empty, broken or too large, has no closed outline, or is of a kind not read.
 
     Notes
     -----
@@ -88,26 +89,37 @@ def read_file(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = pathlib.Path(folder) / "square.geojson"
     ...     _ = file.write_text(json.dumps(square))
-    ...     kind, (rings,) = read_file(file)
-    >>> kind, rings[0].tolist()
-    ('rings', [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
+    ...     kind, (rings, names) = read_file(file)
+    >>> kind, names, rings[0].tolist()
+    ('rings', ['ring 0'], [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     """
-    path = Path(path)
+    path = as_path(path)
     suffix = path.suffix.lower()
     known = (".geojson", ".json", ".svg", ".npz", *MESH_SUFFIXES, *_PICTURES)
     if suffix not in known:
-        raise InputError(f"no reader for {suffix or 'no suffix'!r}; it reads {', '.join(known)}.")
-    if not path.is_file():
-        raise InputError(f"there is no such file; check the path {path}.")
-    if not path.stat().st_size:
-        raise InputError("the file is empty; save it again.")
-    if suffix == ".npz":
-        return _read_npz(path)
-    if suffix in MESH_SUFFIXES:
-        return "mesh", read_mesh(path)
-    if suffix in _PICTURES:
-        return "rings", (_read_picture(path, level, smooth, invert),)
-    return "rings", (svg_rings(path, tolerance) if suffix == ".svg" else _geojson_rings(path),)
+        raise InputError(f"no reader for {suffix[:9] or 'no suffix'!r}; it reads {', '.join(known)}.")
+    try:
+        if not path.is_file():
+            raise InputError(f"there is no such file; check the path {shown(str(path))}.")
+        if not path.stat().st_size:
+            raise InputError("the file is empty; save it again.")
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"the file has more than {MOST_BYTES:,} bytes; save it smaller.")
+        if suffix == ".npz":
+            return _read_npz(path)
+        if suffix in MESH_SUFFIXES:
+            return "mesh", read_mesh(path)
+        if suffix in _PICTURES:
+            return "rings", (_read_picture(path, level, smooth, invert),)
+        return "rings", (svg_rings(path, tolerance) if suffix == ".svg" else _geojson_rings(path))
+    except PolyskelError:
+        raise
+    except Exception as error:  # the readers raise whatever a broken file makes them stumble over
+        raise InputError(f"the file cannot be read ({_short(error)}); save it again.") from error
+
+
+def _short(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}"[:200]
 
 
 def trace(image, level: float = 0.5, smooth: float = 0.0) -> list[np.ndarray]:
@@ -150,10 +162,9 @@ def trace(image, level: float = 0.5, smooth: float = 0.0) -> list[np.ndarray]:
     ([1.0, 1.0], [3.0, 2.0])
     """
     values = _as_image(image)
-    if not (isinstance(level, Real) and np.isfinite(level)):
-        raise InputError(f"level is {level!r}; pass a finite number.")
-    if not (isinstance(smooth, Real) and np.isfinite(smooth) and smooth >= 0):
-        raise InputError(f"smooth is {smooth!r}; pass a width in pixels, 0 or more.")
+    level = as_number(level, "level", "a finite number")
+    # A blur reaches four times as far, and a wider one than the picture leaves nothing of it.
+    smooth = as_number(smooth, "smooth", f"a width in pixels, 0 to {max(values.shape)}", 0, max(values.shape))
     if values.max() < level:
         raise InputError(f"no pixel reaches the level {level:g}, the largest is {values.max():g}; lower it.")
     # Outside, the mirror of the largest value: what reaches the border ends with the border's pixels,
@@ -169,17 +180,19 @@ def trace(image, level: float = 0.5, smooth: float = 0.0) -> list[np.ndarray]:
 
 
 def _as_image(image) -> np.ndarray:
-    try:
-        values = np.array(image, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"image is not an array of numbers ({error}); pass (rows, columns).") from None
+    values = as_floats(image, "image", "an array (rows, columns)")
     if values.ndim != 2 or not values.size:
         raise InputError(f"image has shape {values.shape}; pass one channel, an array (rows, columns).")
-    bad = np.argwhere(~np.isfinite(values))
-    if len(bad):
-        row, column = bad[0]
-        raise InputError(f"image[{row}, {column}] is {values[row, column]}; all pixels have to be finite.")
+    _check_pixels(values.shape)
     return values
+
+
+def _check_pixels(shape) -> None:
+    rows, columns = shape
+    if rows * columns > MOST_PIXELS:
+        raise InputError(
+            f"the picture has {rows} x {columns} pixels, and {MOST_PIXELS:,} are the most; make it smaller."
+        )
 
 
 def _off_level(values: np.ndarray, level: float) -> np.ndarray:
@@ -202,7 +215,7 @@ def _contours(values: np.ndarray, level: float) -> list[np.ndarray]:
 
 def _read_picture(path: Path, level: float, smooth: float, invert: bool) -> list[np.ndarray]:
     values, kind = _picture_values(path)
-    if invert:
+    if as_flag(invert, "invert"):
         values = 1 - values
     reach = values >= level
     if reach.all() or not reach.any():
@@ -218,15 +231,18 @@ def _picture_values(path: Path) -> tuple[np.ndarray, str]:
     from PIL import Image, UnidentifiedImageError
 
     try:
-        with Image.open(path) as picture:
+        with Image.open(path, formats=_FORMATS) as picture:
+            _check_pixels(picture.size[::-1])
             if picture.mode.startswith(("I", "F")):  # 16 bits and more; Pillow would clip them to 8
                 deep = np.asarray(picture, dtype=np.float64)
                 return 1 - deep / max(float(deep.max()), 1.0), "dark"
             rgba = picture.convert("RGBA")
     except UnidentifiedImageError:  # its own message has the whole path, which may be a temporary one
         raise InputError("the picture cannot be opened (no known format); save it again, as PNG.") from None
-    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
-        raise InputError(f"the picture cannot be opened ({error}); save it again, as PNG.") from None
+    except PolyskelError:
+        raise
+    except Exception as error:
+        raise InputError(f"the picture cannot be opened ({_short(error)}); save it again, as PNG.") from None
     opacity = np.asarray(rgba.getchannel("A"), dtype=np.float64) / 255
     if opacity.min() < 1:
         return opacity, "opaque"
@@ -237,17 +253,15 @@ def _picture_values(path: Path) -> tuple[np.ndarray, str]:
 
 
 def _read_npz(path: Path) -> tuple[str, tuple]:
-    try:
-        with path.open("rb") as stream, np.load(stream) as data:
-            arrays = {name: data[name] for name in data.files}
-        if {"xy", "off"} <= arrays.keys():
-            rings = np.split(arrays["xy"], arrays["off"][1:-1])
-    except _BROKEN_ARRAYS as error:
-        raise InputError(f"not a file of arrays of numbers ({error}); save it with numpy.savez.") from None
+    arrays = read_arrays(path)
     if {"points", "facets"} <= arrays.keys():
         return "facets", (arrays["points"], arrays["facets"])
     if {"xy", "off"} <= arrays.keys():
-        return "rings", (rings,)
+        xy, off = arrays["xy"], arrays["off"]
+        whole = off.ndim == 1 and len(off) > 1 and off.dtype.kind in "iu"
+        if not whole or off[0] != 0 or off[-1] != len(xy) or (off[1:] <= off[:-1]).any():
+            raise InputError("off must say where each ring begins, from 0 up, and at its end the total.")
+        return "rings", (np.split(xy, off[1:-1]),)
     raise InputError(
         f"its arrays are {', '.join(sorted(arrays)) or 'none'}; it needs points and facets, or xy and off."
     )
@@ -256,57 +270,58 @@ def _read_npz(path: Path) -> tuple[str, tuple]:
 # --- GeoJSON --------------------------------------------------------------------------------------
 
 
-def _geojson_rings(path: Path) -> list[np.ndarray]:
+def _geojson_rings(path: Path) -> tuple[list[np.ndarray], list[str]]:
     try:
         content = json.loads(path.read_text(encoding="utf-8-sig"))
     except (ValueError, RecursionError) as error:
         raise InputError(f"this is not JSON ({error}); save it again as GeoJSON.") from None
-    rings = [_position_ring(*found) for found in _linear_rings(content, "the file")]
-    if not rings:
+    found = list(_linear_rings(content, ""))
+    if not found:
         raise InputError("there is no Polygon or MultiPolygon in it; save an area, not an empty collection.")
-    return rings
+    return [_position_ring(*ring) for ring in found], [where for _, where in found]
+
+
+# What is below a GeoJSON object, and how messages call one of these.
+_PARTS = {
+    "FeatureCollection": ("features", "feature"),
+    "GeometryCollection": ("geometries", "geometry"),
+    "Feature": ("geometry", ""),
+    "MultiPolygon": ("coordinates", "polygon"),
+    "Polygon": ("coordinates", "ring"),
+}
 
 
 def _linear_rings(content, where: str) -> Iterator[tuple[list, str]]:
     """All rings below a GeoJSON object, each with its place in the file for messages."""
     kind = content.get("type") if isinstance(content, dict) else None
-    parts = {
-        "FeatureCollection": "features",
-        "GeometryCollection": "geometries",
-        "Feature": "geometry",
-        "MultiPolygon": "coordinates",
-        "Polygon": "coordinates",
-    }
-    if kind not in parts:
-        found = f"a {kind}" if kind else "no GeoJSON object"
-        raise InputError(f"{where} is {found}; only Polygon and MultiPolygon have an inside: take it out.")
-    name = parts[kind]
-    part, below = content.get(name), name if where == "the file" else f"{where}.{name}"
+    if not isinstance(kind, str) or kind not in _PARTS:
+        found = f"a {kind[:40]}" if isinstance(kind, str) else "no GeoJSON object"
+        raise InputError(
+            f"{where or 'the file'} is {found}; only Polygon and MultiPolygon have an inside: take it out."
+        )
+    name, each = _PARTS[kind]
+    part = content.get(name)
     if kind == "Feature":
         if part is not None:  # a feature without a place is legal
-            yield from _linear_rings(part, below)
+            yield from _linear_rings(part, where)
         return
-    for k, item in _items(part, below):
-        if kind == "Polygon":
-            yield item, f"{below}[{k}]"
-        elif kind == "MultiPolygon":
-            yield from ((ring, f"{below}[{k}][{m}]") for m, ring in _items(item, f"{below}[{k}]"))
-        else:
-            yield from _linear_rings(item, f"{below}[{k}]")
-
-
-def _items(part, where: str) -> Iterator[tuple[int, object]]:
     if not isinstance(part, list):
-        raise InputError(f"{where} is not a list; save the file again as GeoJSON.")
-    return enumerate(part)
+        raise InputError(f"{where or 'the file'}: {name} is not a list; save the file again as GeoJSON.")
+    for k, item in enumerate(part):
+        here = f"{where}, {each} {k}" if where else f"{each} {k}"
+        if kind == "Polygon":
+            yield item, here
+        else:
+            below = {"type": "Polygon", "coordinates": item} if kind == "MultiPolygon" else item
+            yield from _linear_rings(below, here)
 
 
 def _position_ring(positions, where: str) -> np.ndarray:
-    try:
-        ring = np.array([position[:2] for position in positions], dtype=np.float64)
-    except (TypeError, ValueError):
-        ring = np.empty(0)
-    if ring.ndim != 2 or ring.shape[1] != 2:
+    is_list = isinstance(positions, list) and all(isinstance(p, list) and len(p) > 1 for p in positions)
+    if not is_list or not positions:
+        raise InputError(f"{where} is not a list of positions [x, y]; save the file again as GeoJSON.")
+    ring = as_floats([position[:2] for position in positions], where, "positions [x, y]")
+    if ring.ndim != 2:
         raise InputError(f"{where} is not a list of positions [x, y]; save the file again as GeoJSON.")
     if (ring[0] != ring[-1]).any():
         raise InputError(

@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
-from numbers import Real
 from os import PathLike
 from xml.etree import ElementTree
 
 import numpy as np
 
+from ..checks import as_number
 from ..errors import InputError
 
+#: Vertices of all outlines together: a polygon of more is no longer a drawing.
+MOST_VERTICES = 1_000_000
 
-def svg_rings(path: str | PathLike, tolerance: float = 1e-3) -> list[np.ndarray]:
+
+def svg_rings(path: str | PathLike, tolerance: float = 1e-3) -> tuple[list[np.ndarray], list[str]]:
     """Read all closed paths and basic shapes of an SVG file as polygons.
 
     Parameters
@@ -28,8 +31,10 @@ def svg_rings(path: str | PathLike, tolerance: float = 1e-3) -> list[np.ndarray]
 
     Returns
     -------
-    list of (k, 2) float arrays
+    rings : list of (k, 2) float arrays
         In user units with transforms applied, y upward; in no particular orientation.
+    names : list of str
+        What messages call them: the element, its id, and which of its subpaths it is.
 
     Raises
     ------
@@ -47,27 +52,34 @@ def svg_rings(path: str | PathLike, tolerance: float = 1e-3) -> list[np.ndarray]
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = pathlib.Path(folder) / "drawing.svg"
     ...     _ = file.write_text(drawing)
-    ...     (svg_rings(file)[0] + 0.0).tolist()
-    [[0.0, 0.0], [3.0, 0.0], [3.0, -2.0], [0.0, -2.0]]
+    ...     rings, names = svg_rings(file)
+    >>> names, (rings[0] + 0.0).tolist()
+    (['<rect>'], [[0.0, 0.0], [3.0, 0.0], [3.0, -2.0], [0.0, -2.0]])
     """
-    if not (isinstance(tolerance, Real) and 0 < tolerance < 1):
-        raise InputError(f"tolerance is {tolerance!r}; pass a share of the size between 0 and 1.")
+    what = "a share of the size between 0 and 1"
+    tolerance = as_number(tolerance, "tolerance", what, 0, np.nextafter(1, 0), above=True)
     try:
         root = ElementTree.parse(path).getroot()
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last two: unknown encodings
         raise InputError(f"this is not XML ({error}); save it again as SVG.") from None
     closed = list(_subpaths(root, np.eye(3), "", _svg_tools()))
     if not closed:
         raise InputError("there is no closed path in it; turn text and strokes into paths and save it again.")
-    rough = np.concatenate([_polygon(pieces, matrix, np.inf) for pieces, matrix in closed])
+    rough = np.concatenate([_polygon(pieces, matrix, np.inf) for pieces, matrix, _ in closed])
     chord = tolerance * float(np.hypot(*np.ptp(rough, axis=0)))
     if chord == 0:
         raise InputError("all its paths are one point; draw an outline.")
-    rings = [distinct(_polygon(pieces, matrix, chord)) for pieces, matrix in closed]
-    rings = [ring for ring in rings if len(ring) > 2]  # a path there and back encloses nothing
+    count = sum(_count(s, _share(matrix, chord)) for pieces, matrix, _ in closed for s in pieces)
+    if not count <= MOST_VERTICES:
+        raise InputError(
+            f"tolerance = {tolerance:g} asks for {count:.3g} vertices, and {MOST_VERTICES:,} are the most; "
+            "pass a larger one."
+        )
+    rings = [(distinct(_polygon(pieces, matrix, chord)), name) for pieces, matrix, name in closed]
+    rings = [ring for ring in rings if len(ring[0]) > 2]  # a path there and back encloses nothing
     if not rings:
         raise InputError("no path in it encloses an area; draw an outline.")
-    return rings
+    return [ring for ring, _ in rings], [name for _, name in rings]
 
 
 def _svg_tools():
@@ -78,8 +90,8 @@ def _svg_tools():
     return document.CONVERSIONS, parse_path, parser.parse_transform
 
 
-def _subpaths(element, matrix: np.ndarray, fill: str, tools) -> Iterator[tuple[list, np.ndarray]]:
-    """All closed subpaths below an element: their segments, and the transform that belongs to them.
+def _subpaths(element, matrix: np.ndarray, fill: str, tools) -> Iterator[tuple[list, np.ndarray, str]]:
+    """All closed subpaths below an element: their segments, the transform that belongs to them, a name.
 
     `fill` is the one inherited from the elements around.
     """
@@ -97,7 +109,7 @@ def _subpaths(element, matrix: np.ndarray, fill: str, tools) -> Iterator[tuple[l
             pieces = _parsed(element, tag, tools) if tag in conversions and tag != "line" else []
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise InputError(f"{_called(element, tag)} cannot be read ({error}); simplify it.") from None
-    for piece in pieces:
+    for k, piece in enumerate(pieces):
         begin, end = piece[0].start, piece[-1].end
         if abs(begin - end) > 1e-9 * max(abs(begin), abs(end)):
             if fill == "none":
@@ -106,7 +118,11 @@ def _subpaths(element, matrix: np.ndarray, fill: str, tools) -> Iterator[tuple[l
                 f"{_called(element, tag)} is open: it begins at ({begin.real:g}, {begin.imag:g}) and ends at "
                 f"({end.real:g}, {end.imag:g}); close it (Z), or give it fill none if it is a stroke."
             )
-        yield piece, matrix
+        yield (
+            piece,
+            matrix,
+            f"subpath {k} of {_called(element, tag)}" if len(pieces) > 1 else _called(element, tag),
+        )
     if tag in ("svg", "g", "a", "switch"):
         for child in element:
             yield from _subpaths(child, matrix, fill, tools)
@@ -125,14 +141,24 @@ def _parsed(element, tag: str, tools) -> list[list]:
 
 def _polygon(pieces: list, matrix: np.ndarray, chord: float) -> np.ndarray:
     """Vertices along the segments, transformed, y upward, no farther than `chord` from the curve."""
-    scale = np.linalg.norm(matrix[:2, :2], 2)
-    z = np.array([s.point(t) for s in pieces for t in _parameters(s, chord / scale if scale else np.inf)])
+    z = np.array([s.point(t) for s in pieces for t in _parameters(s, _share(matrix, chord))])
     x, y = matrix[:2, :2] @ [z.real, z.imag] + matrix[:2, 2:]
     return np.stack([x, -y], axis=1)
 
 
+def _share(matrix: np.ndarray, chord: float) -> float:
+    """How far a chord may leave a curve before the transform."""
+    scale = np.linalg.norm(matrix[:2, :2], 2)
+    return chord / scale if scale else np.inf
+
+
 def _parameters(segment, chord: float) -> np.ndarray:
-    """Where to put vertices on a segment, its end left out.
+    """Where to put vertices on a segment, its end left out."""
+    return np.linspace(0, 1, int(_count(segment, chord)), endpoint=False)
+
+
+def _count(segment, chord: float) -> float:
+    """How many vertices a segment needs.
 
     A chord over a step h leaves a curve by at most h²/8 times the curve's largest second derivative.
     """
@@ -144,8 +170,8 @@ def _parameters(segment, chord: float) -> np.ndarray:
         degree = len(control) - 1
         bend = degree * (degree - 1) * np.abs(np.diff(control, 2)).max(initial=0.0)
         if degree == 1:
-            return np.zeros(1)
-    return np.linspace(0, 1, max(4, int(np.ceil(np.sqrt(bend / 8 / chord)))), endpoint=False)
+            return 1
+    return max(4, np.ceil(np.sqrt(bend / 8 / chord)))
 
 
 def distinct(ring: np.ndarray) -> np.ndarray:

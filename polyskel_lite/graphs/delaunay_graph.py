@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from ..checks import as_points, check_distinct
+from ..checks import MOST_POINTS, as_indices, as_points, check_distinct
+from ..errors import InputError
 from .tessellation import Tessellation
 from .triangulation import triangulate
 
@@ -16,7 +15,7 @@ def delaunay(points, facets=None) -> Tessellation:
     ----------
     points : (n, N) array-like, N = 2 or 3
         All different, not all in one line or plane; any unit, any distance from the origin.
-    facets : (m, 2) array-like of int, optional
+    facets : (m, N) array-like of int, optional
         Segments to prefer among the diagonals of cocircular samples (2D): a boundary that is in
         one of the possible tessellations is then in this one.
 
@@ -50,9 +49,12 @@ def delaunay(points, facets=None) -> Tessellation:
     32
     """
     points = as_points(points)
+    if len(points) >= MOST_POINTS:
+        raise InputError(f"there are {len(points):,} points, and {MOST_POINTS:,} are too many; thin them.")
     check_distinct(points)
-    points.setflags(write=False)
-    return Tessellation(points, *triangulate(points, None if facets is None else np.asarray(facets)))
+    if facets is not None:
+        facets = as_indices(facets, "facets", len(points), points.shape[1])
+    return Tessellation(points, *triangulate(points, facets))
 
 
 def as_tessellation(points_or_tessellation) -> Tessellation:

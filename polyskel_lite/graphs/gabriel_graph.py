@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..checks import as_flag
 from ..exact import components, in_ball, in_gabriel_ball
 from .delaunay_graph import as_tessellation
 from .tessellation import Tessellation
@@ -24,6 +25,7 @@ def gabriel_mask(
     >>> gabriel_mask(delaunay([(0, 0), (4, 0), (2, 1)])).tolist()
     [True, True, False]
     """
+    closed = as_flag(closed, "closed")
     facets, apexes = tessellation.facets(), tessellation.apexes()
     if rows is not None:
         facets, apexes = facets[rows], apexes[rows]

@@ -8,6 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from ..checks import as_indices, as_points
+from ..errors import InputError
 from ..exact import as_integers, circumcenter_terms
 
 #: By the number of corners: the facets opposite them, all seen from the same side in a positive simplex.
@@ -17,6 +19,8 @@ OPPOSITE = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3
 @dataclass(frozen=True, eq=False)
 class Tessellation:
     """A verified Delaunay tessellation of points; made by `delaunay`.
+
+    Given arrays are checked as far as that is quick: what they are, and that neighbors are so both ways.
 
     Attributes
     ----------
@@ -42,6 +46,25 @@ class Tessellation:
     points: np.ndarray
     simplices: np.ndarray
     neighbors: np.ndarray
+
+    def __post_init__(self):
+        points = as_points(self.points)
+        corners = points.shape[1] + 1
+        simplices = as_indices(self.simplices, "simplices", len(points), corners)
+        neighbors = as_indices(self.neighbors, "neighbors", len(simplices), corners, -1)
+        if len(simplices) != len(neighbors) or not len(simplices):
+            raise InputError(f"there are {len(neighbors)} rows of neighbors for {len(simplices)} simplices.")
+        t, side = np.nonzero(neighbors >= 0)
+        lonely = (neighbors[neighbors[t, side]] != t[:, None]).all(axis=1)
+        if lonely.any():
+            k = np.argmax(lonely)
+            raise InputError(
+                f"simplex {t[k]} has the neighbor {neighbors[t[k], side[k]]}, which has not {t[k]}; "
+                "compute the tessellation again."
+            )
+        points.setflags(write=False)
+        for name, array in (("points", points), ("simplices", simplices), ("neighbors", neighbors)):
+            object.__setattr__(self, name, array)
 
     @property
     def dimension(self) -> int:

@@ -13,7 +13,11 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..checks import as_points
+from ..checks import as_array, as_flag, as_floats, as_instance, as_number, as_points, shown
+from ..errors import InputError
+
+#: Corners of a chain, when it is cut so finely that the nearest corner tells the nearest segment.
+MOST_CORNERS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -38,8 +42,46 @@ class Field:
     value: Callable[[np.ndarray], np.ndarray]
     box: np.ndarray
 
+    def __post_init__(self):
+        if not callable(self.value):
+            raise InputError(
+                f"value is {shown(self.value)}; pass a function from (k, 3) points to (k,) numbers."
+            )
+        object.__setattr__(self, "box", as_box(self.box))
+
     def __call__(self, points) -> np.ndarray:
-        return self.value(np.asarray(points))
+        points = as_array(points, "points", "a (k, 3) array")
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise InputError(f"points has shape {points.shape}; pass a (k, 3) array.")
+        return self.value(points)
+
+
+def as_box(box) -> np.ndarray:
+    """Return the two corners of a box as a float array (2, 3), or say what is wrong.
+
+    Examples
+    --------
+    >>> as_box([(0, 0, 0), (1, 1, 0)])
+    Traceback (most recent call last):
+    polyskel_lite.errors.InputError: box must have two rows, its lowest and its highest corner.
+    """
+    box = as_points(box, name="box", dimensions=(3,))
+    if box.shape != (2, 3) or not (box[0] < box[1]).all():
+        raise InputError("box must have two rows, its lowest and its highest corner.")
+    return box
+
+
+def _place(center) -> np.ndarray:
+    center = as_floats(center, "center", "three numbers")
+    if center.shape != (3,):
+        raise InputError(f"center has shape {center.shape}; pass three numbers.")
+    return center
+
+
+def _lengths(**lengths) -> list[float]:
+    return [
+        as_number(value, name, "a positive length", 0, 1e100, above=True) for name, value in lengths.items()
+    ]
 
 
 def ball(center=(0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
@@ -50,7 +92,7 @@ def ball(center=(0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
     >>> ball(radius=2.0)([[0, 0, 3]]).tolist()
     [1.0]
     """
-    center = np.asarray(center, dtype=float)
+    center, (radius,) = _place(center), _lengths(radius=radius)
     return Field(lambda x: np.linalg.norm(x - center, axis=1) - radius, _box(center[None], radius))
 
 
@@ -68,7 +110,7 @@ def torus(major: float = 1.0, minor: float = 0.4, center=(0.0, 0.0, 0.0)) -> Fie
     >>> torus()([[1, 0, 0]]).round(3).tolist()
     [-0.4]
     """
-    center = np.asarray(center, dtype=float)
+    center, (major, minor) = _place(center), _lengths(major=major, minor=minor)
 
     def value(x):
         y = x - center
@@ -86,6 +128,7 @@ def double_torus(major: float = 1.0, minor: float = 0.4) -> Field:
     >>> double_torus()([[0, 0, 0], [1.1, 0, 0]]).round(2).tolist()
     [-0.33, 0.6]
     """
+    major, minor = _lengths(major=major, minor=minor)
     shift = (major + 0.25 * minor, 0.0, 0.0)
     left = torus(major, minor, center=[-s for s in shift])
     return union(left, torus(major, minor, center=shift), blend=0.1 * minor)
@@ -110,6 +153,7 @@ def capsule(length: float = 2.0, radius: float = 0.5) -> Field:
     >>> capsule()([[0.5, 0.75, 0], [1.5, 0, 0]]).tolist()
     [0.25, 0.0]
     """
+    length, radius = _lengths(length=length, radius=radius)
     return tube([(-length / 2, 0, 0), (length / 2, 0, 0)], radius)
 
 
@@ -134,6 +178,7 @@ def tetrapod(length: float = 1.0, root: float = 0.3, tip: float = 0.18) -> Field
     >>> tetrapod()([[0, 0, 0]]) < 0
     array([ True])
     """
+    length, root, tip = _lengths(length=length, root=root, tip=tip)
     ends = length * np.array([(1, 0.3, 0.4), (-0.5, 0.9, -0.4), (-0.6, -0.5, 0.8), (0.2, -0.7, -1.0)])
     bends = length * np.array([(0.5, -0.1, 0.4), (-0.4, 0.4, 0.1), (-0.4, -0.4, 0.2), (0.2, -0.5, -0.4)])
     arms = [arm([(0, 0, 0), bend, end], root, tip) for bend, end in zip(bends, ends, strict=True)]
@@ -158,6 +203,10 @@ def arm(control, root: float, tip: float, pieces: int = 40) -> Field:
     [-0.25]
     """
     points = as_points(control, name="control", dimensions=(3,))
+    if not 2 <= len(points) <= 1000:
+        raise InputError(f"control has {len(points)} points; pass 2 to 1000.")
+    root, tip = _lengths(root=root, tip=tip)
+    pieces = as_number(pieces, "pieces", "a whole number, 1 to 10,000", 1, 10_000, whole=True)
     t = np.linspace(0, 1, pieces + 1)[:, None]
     points = [point[None] for point in points]
     while len(points) > 1:  # de Casteljau, for all t at once
@@ -182,8 +231,14 @@ def tube(points, radius, closed: bool = False) -> Field:
     >>> tube([(0, 0, 0), (1, 0, 0), (1, 1, 0)], 0.25)([[0.5, 0.5, 0]]).tolist()
     [0.25]
     """
-    points = as_points(points, dimensions=(3,))
-    radius = np.broadcast_to(np.asarray(radius, dtype=float), len(points))
+    points, radius = as_points(points, dimensions=(3,)), as_floats(radius, "radius")
+    closed = as_flag(closed, "closed")
+    if len(points) < 2 or radius.shape not in ((), (1,), (len(points),)) or not (radius > 0).all():
+        raise InputError(
+            f"{len(points)} points and radius of shape {radius.shape}; pass two points or more, and one "
+            "positive radius, or one for each point."
+        )
+    radius = np.broadcast_to(radius, len(points))
     box = _box(points, radius.max())
     points, radius = _finely(points, radius, closed)
     tree, c = cKDTree(points), len(points)
@@ -212,6 +267,11 @@ def union(*fields: Field, blend: float = 0.0) -> Field:
     >>> union(ball(), ball(center=(3, 0, 0)))([[3, 0, 0], [1.5, 0, 0]]).tolist()
     [-1.0, 0.5]
     """
+    for field in fields:
+        as_instance(field, Field, "a part", "fields, such as ball()")
+    if not fields:
+        raise InputError("there is nothing to unite; pass fields, such as ball().")
+    blend = as_number(blend, "blend", "a length", high=1e100)
 
     def value(x):
         each = np.array([f(x) for f in fields])
@@ -232,6 +292,8 @@ def difference(first: Field, second: Field) -> Field:
     >>> difference(ball(), ball(radius=0.5))([[0, 0, 0]]).tolist()
     [0.5]
     """
+    for field in (first, second):
+        as_instance(field, Field, "a part", "fields, such as ball()")
     return Field(lambda x: np.maximum(first(x), -second(x)), first.box)
 
 
@@ -240,7 +302,14 @@ def _finely(points, radius, closed):
     corners = np.column_stack([points, radius])
     corners = np.concatenate([corners, corners[:1]]) if closed else corners
     length = np.linalg.norm(np.diff(corners[:, :3], axis=0), axis=1)
-    pieces = np.maximum(1, np.ceil(2 * length / max(radius.min(), 1e-300))).astype(int)
+    with np.errstate(over="ignore"):
+        pieces = np.maximum(1, np.ceil(2 * length / radius.min()))
+    if not pieces.sum() <= MOST_CORNERS:
+        raise InputError(
+            f"a chain of length {length.sum():g} with radius {radius.min():g} is too thin; pass at least "
+            f"{2 * length.sum() / MOST_CORNERS:.2g}."
+        )
+    pieces = pieces.astype(int)
     fine = [
         np.linspace(a, b, k, endpoint=False)
         for (a, b), k in zip(pairwise(corners), pieces.tolist(), strict=True)

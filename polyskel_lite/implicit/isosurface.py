@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import generate_binary_structure, label
 from scipy.spatial import cKDTree
 
-from ..checks import near
+from ..checks import as_array, near
 from ..errors import InputError
 
 _MOST_CELLS = 4_000_000
@@ -36,11 +36,15 @@ def grid_of(field, box: np.ndarray, n: int) -> Grid:
     size = box[1] - box[0]
     step = float((size.prod() / 40_000) ** (1 / 3))
     for _ in range(4):
-        counts = np.ceil(size / step).astype(int) + 1
+        nodes = np.ceil(size / step) + 1
+        if not nodes.prod() <= 5 * _MOST_CELLS:
+            raise InputError(f"the box is too flat or too long for a grid ({size}); make it more of a cube.")
+        counts = nodes.astype(int)
         axes = [box[0, k] + step * np.arange(counts[k]) for k in range(3)]
         nodes = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
         flat = nodes.reshape(-1, 3)
-        value = np.concatenate([field(part) for part in np.array_split(flat, len(flat) // 100_000 + 1)])
+        parts = np.array_split(flat, len(flat) // 100_000 + 1)
+        value = np.concatenate([np.atleast_1d(as_array(field(part), "what field returns")) for part in parts])
         if value.shape != (len(flat),) or not np.isfinite(value).all():
             raise InputError("field must map (k, 3) points to (k,) finite numbers; it does not in this box.")
         value = value.reshape(nodes.shape[:3])

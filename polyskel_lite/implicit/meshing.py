@@ -6,13 +6,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..checks import as_points
+from ..checks import as_number, shown
 from ..containment import DelaunayShape
 from ..errors import InputError, ShapeError
 from ..graphs import delaunay
 from ..shapes import Shape
-from .fields import Field
+from .fields import Field, as_box
 from .isosurface import dense_points, grid_of, spread, topology_of_grid
+
+#: Vertices of one mesh: it takes some minutes, and the grid has no more crossings.
+MOST_VERTICES = 50_000
 
 
 def solid(field: Field | Callable, n: int = 1000, box=None, seed: int = 0) -> Shape:
@@ -56,15 +59,18 @@ def solid(field: Field | Callable, n: int = 1000, box=None, seed: int = 0) -> Sh
     >>> len(ring.points), ring.betti()
     (300, (1, 1, 0))
     """
+    if not callable(field):
+        raise InputError(
+            f"field is {shown(field)}; pass a Field, or a function from (k, 3) points to (k,) numbers."
+        )
     if box is None:
         box = getattr(field, "box", None)
     if box is None:
         raise InputError("box is missing; pass the two corners of a box around the solid.")
-    box = as_points(box, name="box", dimensions=(3,))
-    if box.shape != (2, 3) or not (box[0] < box[1]).all():
-        raise InputError("box must have two rows, its lowest and its highest corner.")
-    if n < 20:
-        raise InputError(f"n = {n} vertices; a smooth surface needs 20 or more.")
+    box = as_box(box)
+    what = f"a whole number of vertices, 20 to {MOST_VERTICES:,}"
+    n = as_number(n, "n", what, 20, MOST_VERTICES, whole=True)
+    seed = as_number(seed, "seed", "a whole number, 0 or more", 0, 2**63, whole=True)
     grid = grid_of(field, box, n)
     wanted, reason = topology_of_grid(grid.inside), ""
     for attempt in range(6):

@@ -12,8 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..checks import as_points, as_radii
-from ..errors import InputError, TangentBallsError
+from ..checks import as_choice, as_points, as_radii
+from ..errors import TangentBallsError
 from ..skeletons import Skeleton
 from .boundary import BallBoundary
 from .generating import isolated_lenses, lonely, needed
@@ -71,6 +71,7 @@ class Polyball(BallBoundary):
         if not len(centers):
             raise InputError("centers is empty; a polyball needs at least one ball.")
         radii = as_radii(self.radii, len(centers))
+        check_squares(centers, radii)
         centers.setflags(write=False)
         radii.setflags(write=False)
         object.__setattr__(self, "centers", centers)
@@ -241,8 +242,7 @@ class Polyball(BallBoundary):
         >>> row.skeleton().edges.tolist(), len(row.skeleton("as printed").vertices)
         ([[0, 1], [1, 2]], 0)
         """
-        if statement not in ("corrected", "as printed"):
-            raise InputError(f"unknown statement {statement!r}; choose corrected or as printed.")
+        as_choice(statement, "statement", ("corrected", "as printed"))
         pairs = self.touching()
         if len(pairs):
             i, j = pairs[0]

@@ -16,12 +16,15 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
+from ..checks import as_number
 from ..errors import InputError
 from ..exact import components
 from .pairs import spread_out, units
 from .spheres import SphereBoundary
 from .union import BallUnion, Caps
 
+#: Triangles on all spheres together: one million take ten seconds, and no screen shows more.
+MOST_TRIANGLES = 1_000_000
 _EDGE = np.arctan(2)  # of the icosahedron in the unit sphere, as an angle
 _COARSEST = 2  # edges of the icosahedron are cut into so many at least: 42 vertices on a whole sphere
 _CLEAR = 0.5  # vertices stay this share of an edge away from arcs
@@ -77,11 +80,18 @@ def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.nd
     >>> np.unique(ball).tolist(), bool(np.allclose(np.linalg.norm(spokes, axis=2), 1))
     ([0, 1], True)
     """
-    if not fineness > 0:
-        raise InputError(f"fineness is {fineness}: pass a share of the size of the whole, such as 0.03.")
+    what = "a share of the size of the whole, such as 0.03"
+    fineness = as_number(fineness, "fineness", what, 0, above=True)
     centers, radii = union.centers, union.radii
     size = ((centers + radii[:, None]).max(axis=0) - (centers - radii[:, None]).min(axis=0)).max()
-    parts = np.maximum(np.ceil(_EDGE * radii / (fineness * size)).astype(np.int64), _COARSEST)
+    parts = np.maximum(np.ceil(_EDGE * radii / (fineness * size)), _COARSEST)
+    count = 20 * (parts**2).sum()
+    if not count <= MOST_TRIANGLES:
+        raise InputError(
+            f"fineness = {fineness:g} asks for {count:.2g} triangles, and {MOST_TRIANGLES:,} are the most; "
+            f"pass {fineness * np.sqrt(count / MOST_TRIANGLES):.2g} or more."
+        )
+    parts = parts.astype(np.int64)
     rims = _rims(union.boundary, radii * _EDGE / parts)
     hulls = _hulls(union, parts, rims)
     kept, broken = _patch_side(hulls)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from ..checks import as_points, near
+from ..checks import as_points, near, shown
 from ..errors import InputError, ShapeError
-from ..exact import first_meeting, locate, occurrences, orientation
+from ..exact import first_meeting, occurrences, odd_around, orientation
+
+#: Rings of one shape: these take a minute or two. A picture of noise has so many in 1500 x 1500 pixels.
+MOST_RINGS = 500_000
 
 
 def check_closed(n: int, facets: np.ndarray) -> None:
@@ -54,43 +58,104 @@ def turn_of(ring: np.ndarray) -> int:
     return int(orientation(ring[[[k - 1, k, (k + 1) % len(ring)]]])[0])
 
 
-def nesting(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """How many other rings surround each ring, and how each one turns."""
-    turn = np.array([turn_of(ring) for ring in rings])
-    first = np.array([ring[0] for ring in rings])
-    depth = np.zeros(len(rings), dtype=int)
-    for k, ring in enumerate(rings):
-        inside = locate(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1), first) > 0
-        inside[k] = False
-        depth += inside
-    return depth, turn
-
-
-def oriented(rings: Sequence) -> list[np.ndarray]:
-    """Closed rings of any orientation, outer ones turned counter-clockwise, holes clockwise (even-odd).
+def wrongly_turned(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Which rings run the wrong way, and which are holes: those with an odd number of others around.
 
     Examples
     --------
-    >>> oriented([[(0, 0), (0, 2), (2, 0), (0, 0)]])[0].tolist()
-    [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]
+    >>> [x.tolist() for x in wrongly_turned([np.array([(0, 0), (0, 2), (2, 0)])])]
+    [[True], [False]]
     """
+    turn = np.array([turn_of(ring) for ring in rings])
+    first = np.array([ring[0] for ring in rings])
+    around = np.flatnonzero(_may_surround(rings, first)).tolist()
+    segments = [np.stack([rings[k], np.roll(rings[k], -1, axis=0)], axis=1) for k in around]
+    owner = np.repeat(around, [len(rings[k]) for k in around]).astype(np.int64)
+    hole = odd_around(np.concatenate([np.zeros((0, 2, 2)), *segments]), owner, first)
+    return (turn > 0) == hole, hole
+
+
+def _may_surround(rings: list[np.ndarray], first: np.ndarray) -> np.ndarray:
+    """Which rings have the first vertex of another one near their box; of thousands of specks few have."""
+    low, high = (np.array([getattr(ring, which)(axis=0) for ring in rings]) for which in ("min", "max"))
+    middle, reach = (low + high) / 2, (high - low).max(axis=1)  # twice of what is needed, for rounding
+    size = max(np.abs(low).max(), np.abs(high).max()) or 1.0
+    tree = cKDTree(first / size)
+    return tree.query_ball_point(middle / size, reach / size, p=np.inf, return_length=True) > 1
+
+
+def oriented(rings, names=None) -> tuple[list[np.ndarray], Callable[[int], tuple[str, int]]]:
+    """Closed rings of any orientation, outer ones turned counter-clockwise, holes clockwise (even-odd).
+
+    Parameters
+    ----------
+    rings : sequence of (k, 2) array-like
+    names : sequence of str, optional
+        What messages call the rings.
+
+    Returns
+    -------
+    rings : list of (k, 2) float arrays
+    place : callable
+        From a vertex of all rings one after the other to the name of its ring, and its number as given.
+
+    Examples
+    --------
+    >>> rings, place = oriented([[(0, 0), (0, 2), (2, 0), (0, 0)]])
+    >>> rings[0].tolist(), place(1)
+    ([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ('ring 0', 2))
+    """
+    rings = _listed(rings)
+    if names is None:
+        names = [f"ring {k}" for k in range(len(rings))]
+    if not isinstance(names, Sequence) or len(names) != len(rings):
+        raise InputError(f"names is {shown(names)}; pass one name for each of the {len(rings)} rings.")
     cleaned = []
-    for k, ring in enumerate(rings):
-        ring = as_points(ring, name=f"ring {k}", dimensions=(2,))
+    for name, ring in zip(names, rings, strict=True):
+        ring = as_points(ring, name=name, dimensions=(2,))
         if len(ring) > 1 and (ring[0] == ring[-1]).all():
             ring = ring[:-1]
         if len(ring) < 3:
-            raise InputError(f"ring {k} has {len(ring)} different vertices; a ring needs at least three.")
+            raise InputError(f"{name} has {len(ring)} different vertices; a ring needs at least three.")
         cleaned.append(ring)
-    depth, turn = nesting(cleaned)
+    wrong, _ = wrongly_turned(cleaned)
+    first = np.cumsum([0, *map(len, cleaned)])
+
+    def place(vertex: int) -> tuple[str, int]:
+        k = int(np.searchsorted(first, vertex, side="right")) - 1
+        number = int(vertex - first[k])
+        return names[k], -number % len(cleaned[k]) if wrong[k] else number
+
     return [
-        ring if (turn[k] > 0) == (depth[k] % 2 == 0) else np.roll(ring[::-1], 1, axis=0)
-        for k, ring in enumerate(cleaned)
-    ]
+        np.roll(ring[::-1], 1, axis=0) if turned else ring
+        for ring, turned in zip(cleaned, wrong, strict=True)
+    ], place
 
 
-def check_meetings(points: np.ndarray, facets: np.ndarray) -> None:
+def _listed(rings) -> list:
+    """The rings in a list, from a sequence or an array of some, and not from what can be read only once."""
+    if not isinstance(rings, (Sequence, np.ndarray)) or isinstance(rings, (str, bytes, np.ma.MaskedArray)):
+        raise InputError(
+            f"rings is {shown(rings)}; pass a list of rings, such as [[(0, 0), (1, 0), (0, 1)]]."
+        )
+    if (isinstance(rings, np.ndarray) and not rings.ndim) or not len(rings):
+        raise InputError("rings is empty; pass at least one ring of three vertices.")
+    if len(rings) > MOST_RINGS:
+        raise InputError(
+            f"there are {len(rings):,} rings, and {MOST_RINGS:,} are the most; leave small ones out."
+        )
+    return list(rings)
+
+
+def check_meetings(points: np.ndarray, facets: np.ndarray, place=None) -> None:
     """Raise `ShapeError` naming the first two segments that meet elsewhere than at a common end.
+
+    Parameters
+    ----------
+    points : (n, 2) float array
+    facets : (m, 2) int array
+    place : callable, optional
+        From a vertex to the name of its ring and its number there, for the message.
 
     Examples
     --------
@@ -98,12 +163,18 @@ def check_meetings(points: np.ndarray, facets: np.ndarray) -> None:
     """
     meeting = first_meeting(points, facets)
     if meeting:
-        i, j = meeting
-        (a, b), (c, d) = facets[i], facets[j]
+        one, two = (_called(k, facets[k], place) for k in meeting)
         raise ShapeError(
-            f"segment {i} (vertices {a}-{b}) meets segment {j} (vertices {c}-{d}) near "
-            f"{near(points[facets[i]])}; a boundary may not cross or touch itself: move a vertex."
+            f"{one} meets {two} near {near(points[facets[meeting[0]]])}; a boundary may not cross or touch "
+            "itself: move a vertex."
         )
+
+
+def _called(k: int, facet: np.ndarray, place) -> str:
+    if place is None:
+        return f"segment {k} (vertices {facet[0]}-{facet[1]})"
+    (name, a), (_, b) = map(place, facet)
+    return f"segment {min(a, b)}-{max(a, b)} of {name}"
 
 
 def check_turns(points: np.ndarray, facets: np.ndarray) -> None:
@@ -114,11 +185,11 @@ def check_turns(points: np.ndarray, facets: np.ndarray) -> None:
     >>> check_turns(np.array([(0, 0), (1, 0), (0, 1)]), np.array([(0, 1), (1, 2), (2, 0)]))
     """
     rings = rings_of(facets)
-    depth, turn = nesting([points[ring] for ring in rings])
-    for k, ring in enumerate(rings):
-        if (turn[k] > 0) != (depth[k] % 2 == 0):
-            kind = "an outer ring runs clockwise" if depth[k] % 2 == 0 else "a hole runs counter-clockwise"
-            raise ShapeError(
-                f"{kind}: the ring through vertex {ring[0]} at {near(points[ring[:1]])} has its interior on "
-                "the right; reverse its segments, or use Shape.from_rings."
-            )
+    wrong, hole = wrongly_turned([points[ring] for ring in rings])
+    if wrong.any():
+        k = int(np.argmax(wrong))
+        kind = "a hole runs counter-clockwise" if hole[k] else "an outer ring runs clockwise"
+        raise ShapeError(
+            f"{kind}: the ring through vertex {rings[k][0]} at {near(points[rings[k][:1]])} has its interior "
+            "on the right; reverse its segments, or use Shape.from_rings."
+        )

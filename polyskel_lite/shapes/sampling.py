@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from numbers import Integral
-
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..errors import InputError
+from ..checks import as_number, check_squares
+
+#: Samples of one shape: their tessellation takes a minute.
+MOST_SAMPLES = 1_000_000
 
 
 def sample_rings(rings: list[np.ndarray], n: int, start: float) -> list[np.ndarray]:
@@ -21,12 +22,10 @@ def sample_rings(rings: list[np.ndarray], n: int, start: float) -> list[np.ndarr
     """
     closed = [np.concatenate([ring, ring[:1]]) for ring in rings]
     along = [np.concatenate([[0], np.cumsum(np.hypot(*np.diff(c, axis=0).T))]) for c in closed]
-    if not isinstance(n, Integral):
-        raise InputError(f"n is {n!r}; pass a whole number of samples.")
-    if not np.isfinite(start):
-        raise InputError(f"start is {start!r}; pass a share of one step, such as 0.5.")
-    if n < 3 * len(closed):
-        raise InputError(f"n = {n} samples for {len(closed)} rings; every ring needs at least three.")
+    least = 3 * len(closed)
+    what = f"a whole number of samples for {len(closed)} rings, {least} to {MOST_SAMPLES:,}"
+    n = as_number(n, "n", what, least, MOST_SAMPLES, whole=True)
+    start = as_number(start, "start", "a share of one step, such as 0.5")
     lengths = np.array([s[-1] for s in along])
     # Largest remainders: the shares are fair and sum to n.
     ideal = n * lengths / lengths.sum()
@@ -53,6 +52,7 @@ def covering_radius(facets: np.ndarray, vertices: np.ndarray, E: np.ndarray) -> 
     >>> round(covering_radius(triangle[None], triangle, triangle), 5)
     2.5
     """
+    check_squares(vertices, E)
     tree = cKDTree(E)
     best = float(max(tree.query(vertices)[0].max(), 0.0))
     # Far from the origin floats are too coarse to say more.

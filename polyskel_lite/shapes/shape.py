@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
-from ..checks import as_facets, as_points, check_distinct
+from ..checks import as_flag, as_indices, as_path, as_points, check_distinct
 from ..errors import InputError, PolyskelError, ShapeError
 from ..exact import locate, locate_in_mesh
 from ..files import read_file, trace, write_surface
@@ -96,7 +95,10 @@ class Shape(Boundary):
 
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
-        facets = as_facets(self.facets, len(points), points.shape[1])
+        self._set(points, as_indices(self.facets, "facets", len(points), points.shape[1]))
+
+    def _set(self, points: np.ndarray, facets: np.ndarray, place=None) -> None:
+        """Check the boundary and keep it; ``place`` says where vertices are, when they come from rings."""
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "facets", facets)
         if self.dimension == 3:
@@ -104,20 +106,23 @@ class Shape(Boundary):
             check_mesh(points, facets)
         else:
             check_closed(len(points), facets)
-            check_distinct(points)
-            check_meetings(points, facets)
-            check_turns(points, facets)
+            check_distinct(points, place)
+            check_meetings(points, facets, place)
+            if place is None:  # else the rings were turned as they have to be
+                check_turns(points, facets)
         points.setflags(write=False)
         facets.setflags(write=False)
 
     @classmethod
-    def from_rings(cls, rings: Sequence) -> Shape:
+    def from_rings(cls, rings: Sequence, names: Sequence[str] | None = None) -> Shape:
         """Make a shape from closed rings of any orientation; rings inside rings are holes (even-odd).
 
         Parameters
         ----------
         rings : list of (k, 2) array-like
             Vertices in order. The last one may repeat the first.
+        names : list of str, optional
+            What messages call the rings; by default "ring 0", "ring 1" and so on.
 
         Returns
         -------
@@ -127,7 +132,7 @@ class Shape(Boundary):
         Raises
         ------
         InputError, DuplicatePointError, ShapeError
-            As `Shape`; a ring with fewer than three vertices is named by its index.
+            As `Shape`; the message names the rings, and vertices by their number in the ring as given.
 
         Examples
         --------
@@ -136,13 +141,10 @@ class Shape(Boundary):
         >>> frame.betti(), round(frame.area(), 12)
         ((1, 1), 8.0)
         """
-        if not np.iterable(rings) or not len(rings):
-            raise InputError("rings is empty or no list; pass at least one ring of three vertices.")
-        return cls._through(oriented(rings))
-
-    @classmethod
-    def _through(cls, rings: list[np.ndarray]) -> Shape:
-        return cls(np.concatenate(rings), ring_facets([len(r) for r in rings]))
+        rings, place = oriented(rings, names)
+        shape = object.__new__(cls)
+        shape._set(np.concatenate(rings), ring_facets([len(ring) for ring in rings]), place)
+        return shape
 
     @classmethod
     def from_mesh(cls, V, F, turn: bool = False) -> Shape:
@@ -174,10 +176,10 @@ class Shape(Boundary):
         1.0
         """
         V = as_points(V, name="V", dimensions=(3,))
-        F = as_facets(F, len(V), 3)
+        F = as_indices(F, "facets", len(V), 3)
         used, faces = np.unique(F, return_inverse=True)
         V, F = V[used], faces.reshape(-1, 3)
-        return cls(V, turned(V, F) if turn else F)
+        return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
 
     @classmethod
     def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
@@ -200,7 +202,7 @@ class Shape(Boundary):
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
-        turn = options.pop("turn", False)
+        turn, path = options.pop("turn", False), as_path(path)
         try:
             kind, arrays = read_file(path, **options)
             if kind == "mesh":
@@ -208,7 +210,7 @@ class Shape(Boundary):
             return cls(*arrays) if kind == "facets" else cls.from_rings(*arrays)
         except PolyskelError as error:
             # The same error, but whoever reads the message has to know which file it is about.
-            error.args = (f"{Path(path).name}: {error}", *error.args[1:])
+            error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
             raise
 
     def to_file(self, path: str | PathLike) -> None:
@@ -297,7 +299,7 @@ class Shape(Boundary):
         """
         rings = self._samples(n, start)
         try:
-            return self._through(rings)
+            return self.from_rings(rings)
         except ShapeError as error:
             raise ShapeError(f"{n} samples are too few for this shape: {error}") from None
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..checks import as_array, as_choice, as_indices, as_instance, shown
 from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..graphs import ordinary
@@ -60,6 +61,18 @@ class Hierarchy:
     kind: np.ndarray
     order: np.ndarray
 
+    def __post_init__(self):
+        as_instance(self.P, DelaunayShape, "P", "a DelaunayShape, and get a Hierarchy from hierarchy(P)")
+        as_choice(self.strategy, "strategy", sum(STRATEGIES.values(), ()))
+        as_choice(self.criterion, "criterion", _CRITERIA)
+        level, kind = as_array(self.level, "level"), as_indices(self.kind, "kind", 3)
+        k = np.count_nonzero(self.P.inner)
+        as_indices(self.order, "order", k)
+        if level.shape != (k,) or kind.shape != (k,) or np.isnan(level).any():
+            raise InputError(
+                f"level and kind must be (k,) arrays of numbers for the k = {k} inner simplices."
+            )
+
     @cached_property
     def simplices(self) -> np.ndarray:
         """The inner simplices, (k,): rows of ``P.tessellation.simplices``."""
@@ -90,9 +103,9 @@ class Hierarchy:
         >>> h.kept(float("-inf")).tolist() == h.P.inner.tolist()
         True
         """
-        if not isinstance(threshold, Real) or np.isnan(threshold):
+        if not isinstance(threshold, Real) or not (abs(threshold) <= 1e308 or abs(threshold) == np.inf):
             raise InputError(
-                f"threshold is {threshold!r}, not a number; pass an angle in radians, such as pi / 3."
+                f"threshold is {shown(threshold)}, not a number; pass an angle in radians, such as pi / 3."
             )
         keep = np.zeros_like(self.P.inner)
         keep[self.simplices] = self.level >= threshold
@@ -181,10 +194,8 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         P = delaunay_shape(P)
     fitting, known = STRATEGIES[P.dimension], sum(STRATEGIES.values(), ())
     strategy = fitting[0] if strategy is None else strategy
-    if strategy not in known:
-        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(known)}.")
-    if criterion not in _CRITERIA:
-        raise InputError(f"unknown criterion {criterion!r}; choose one of {', '.join(_CRITERIA)}.")
+    as_choice(strategy, "strategy", known)
+    as_choice(criterion, "criterion", _CRITERIA)
     if strategy not in fitting:
         raise InputError(
             f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."

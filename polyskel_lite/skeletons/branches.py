@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..checks import as_instance
 from ..errors import InputError
 from ..exact import components, occurrences
 from .skeleton import Skeleton
@@ -40,6 +41,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     >>> sorted(kind for _, kind in graph.nodes(data="kind"))
     ['end', 'end']
     """
+    as_instance(skeleton, Skeleton, "skeleton", "a Skeleton, such as sk0(shape)")
     try:
         import networkx
     except ImportError:

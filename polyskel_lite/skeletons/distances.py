@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..checks import as_points
+from ..checks import as_number, as_points
 from ..errors import InputError
 from ..exact import facet_distance, nearest_facets
 from ..shapes import Shape, halved
@@ -93,8 +93,8 @@ def _sets(A, B, step):
         raise InputError(f"A is in {a.shape[1]}D and B in {b.shape[1]}D; pass sets of one space.")
     if step is None:
         step = max(float(np.ptp(facets, axis=(0, 1)).max()) for facets in (a, b)) * 1e-6
-    elif not step > 0:
-        raise InputError(f"step is {step}; pass a positive length.")
+    else:
+        step = as_number(step, "step", "a positive length", 0, above=True)
     return a, b, step
 
 

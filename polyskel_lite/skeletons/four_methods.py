@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ..checks import as_choice
 from ..containment import DelaunayShape, delaunay_shape
-from ..errors import InputError
 from ..shapes import Shape, check_shape
 from .inside import VoronoiInside
 from .skeleton import Skeleton
@@ -159,6 +159,4 @@ def _voronoi(shape: Shape, E, side: str) -> VoronoiInside:
 
 
 def _side(side: str) -> int:
-    if side not in _SIDES:
-        raise InputError(f"unknown side {side!r}; choose 'inner' or 'outer'.")
-    return _SIDES[side]
+    return _SIDES[as_choice(side, "side", _SIDES)]

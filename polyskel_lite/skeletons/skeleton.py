@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -10,10 +9,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ..checks import as_array, as_indices, as_instance, as_number, as_path, as_points
 from ..containment import DelaunayShape
 from ..errors import InputError
 from ..exact import Polygons, betti_numbers
-from ..files import write_complex
+from ..files import read_arrays, write_complex, writing
 from ..graphs import Tessellation
 
 if TYPE_CHECKING:
@@ -68,12 +68,45 @@ class Skeleton:
     _polyball: ClassVar[Callable[..., Any]]
 
     def __post_init__(self):
+        self._check()
         # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
         object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
         object.__setattr__(self, "polygons", Polygons.of(self.polygons))
         if self.rays is None:
             object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
             object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
+
+    def _check(self) -> None:
+        """Raise `InputError` unless the arrays fit together; every number is one of the kind it should be."""
+        vertices, radii = as_array(self.vertices, "vertices"), as_array(self.radii, "radii")
+        if vertices.ndim != 2 or vertices.shape[1] not in (2, 3) or radii.shape != vertices.shape[:1]:
+            raise InputError(
+                f"vertices has shape {vertices.shape} and radii {radii.shape}; pass (k, N) and (k,) arrays."
+            )
+        k, n = vertices.shape
+        # The ball of a flat simplex is infinite, and nothing else is.
+        bad = np.flatnonzero(np.isnan(vertices).any(axis=1) | ~(radii >= 0))
+        bad = bad if len(bad) else np.flatnonzero(np.isinf(vertices).any(axis=1) & np.isfinite(radii))
+        if len(bad):
+            raise InputError(f"vertex {bad[0]} is {vertices[bad[0]]} with radius {radii[bad[0]]}; remove it.")
+        t = self.tessellation
+        if t is not None:
+            as_instance(t, Tessellation, "tessellation", "a Tessellation, or None")
+        most = np.iinfo(np.int64).max if t is None else len(t.simplices)
+        simplices = as_indices(self.simplices, "simplices", most, low=-1)
+        as_indices(self.edges, "edges", k, 2)
+        if len(simplices) != k or (t is not None and t.dimension != n):
+            raise InputError(
+                f"{k} vertices in {n}D do not fit {len(simplices)} simplices or the tessellation."
+            )
+        object.__setattr__(self, "polygons", Polygons.of(self.polygons))
+        as_indices(self.polygons.corners, "polygons", k)
+        if self.rays is not None and len(as_points(self.rays, name="rays", dimensions=(n,))) != len(
+            as_indices(self.ray_vertices, "ray_vertices", k)
+        ):
+            raise InputError(
+                f"{len(self.ray_vertices)} ray_vertices for {len(self.rays)} rays; pass one each."
+            )
 
     @property
     def dimension(self) -> int:
@@ -133,6 +166,10 @@ class Skeleton:
         >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).contacts(0).tolist()
         [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]
         """
+        k = len(self.vertices)
+        vertex = as_number(vertex, "vertex", f"a vertex, 0 to {k - 1}", 0, k - 1, whole=True)
+        if self.tessellation is None or self.simplices[vertex] < 0:
+            raise InputError(f"vertex {vertex} is dual to no simplex of a tessellation; choose another one.")
         return self.tessellation.points[self.tessellation.simplices[self.simplices[vertex]]]
 
     def betti(self) -> tuple[int, ...]:
@@ -235,7 +272,7 @@ class Skeleton:
         data |= {"polygon_sizes": self.polygons.sizes, "polygon_corners": self.polygons.corners}
         if self.tessellation is not None:
             data |= {f"tessellation_{name}": getattr(self.tessellation, name) for name in _TESSELLATION}
-        with open(path, "wb") as file:
+        with writing(path) as path, path.open("wb") as file:
             np.savez_compressed(file, **data)
 
     def to_file(self, path: str | PathLike) -> None:
@@ -271,17 +308,24 @@ class Skeleton:
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
+        path = as_path(path)
         try:
-            with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
-                data = dict(file)
-            arrays = {name: data[name] for name in _ARRAYS}
+            data = read_arrays(path)
+            needed = {*_ARRAYS, "polygon_corners", "polygon_sizes"}
+            if "tessellation_points" in data:
+                needed |= {f"tessellation_{name}" for name in _TESSELLATION}
+            if missing := sorted(needed - data.keys()):
+                raise InputError(f"there is no array {missing[0]}.")
             polygons = Polygons(data["polygon_corners"], data["polygon_sizes"])
-        except (KeyError, EOFError, zipfile.BadZipFile, ValueError, AttributeError) as error:
-            raise InputError(f"{path} is not a skeleton written by Skeleton.save ({error}).") from None
-        tessellation = None
-        if "tessellation_points" in data:
-            tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
-        return cls(**arrays, polygons=polygons, tessellation=tessellation)
+            arrays = {name: data[name] for name in _ARRAYS}
+            tessellation = None
+            if "tessellation_points" in data:
+                tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
+            return cls(**arrays, polygons=polygons, tessellation=tessellation)
+        except InputError as error:
+            raise InputError(
+                f"{path.name[:60]} is not a skeleton written by Skeleton.save, or damaged: {error}"
+            ) from None
 
 
 _ARRAYS = ("vertices", "radii", "simplices", "edges", "rays", "ray_vertices")

@@ -129,7 +129,7 @@ def test_arrays_are_no_shapes(call):
 
 def test_unknown_names():
     shape = psl.datasets.load("gear")
-    with pytest.raises(psl.InputError, match="choose one of delaunay, gabriel"):
+    with pytest.raises(psl.InputError, match="choose 'delaunay' or 'gabriel'"):
         psl.conform(shape, to="voronoi")
     with pytest.raises(psl.InputError, match="'inner' or 'outer'"):
         psl.sk0(shape, side="left")

@@ -51,7 +51,7 @@ def test_plain_function_needs_a_box():
         implicit.solid(value, 150, box=[(3,) * 3, (4,) * 3])
     with pytest.raises(InputError, match="lowest and its highest"):
         implicit.solid(value, 150, box=[(3,) * 3, (2,) * 3])
-    with pytest.raises(InputError, match="n = 4 vertices"):
+    with pytest.raises(InputError, match="n is 4; pass a whole number of vertices, 20 to 50,000"):
         implicit.solid(value, 4, box=[(-2,) * 3, (2,) * 3])
     with pytest.raises(InputError, match="finite numbers"):
         implicit.solid(lambda x: np.full(len(x), np.nan), 150, box=[(-2,) * 3, (2,) * 3])

@@ -66,20 +66,23 @@ def collection(geometry):
         ("[" * 100_000, "this is not JSON"),
         ([1, 2], "the file is no GeoJSON object"),
         ({"type": "LineString", "coordinates": SQUARE}, "the file is a LineString; only Polygon"),
-        (collection({"type": "Point", "coordinates": [0, 0]}), r"features\[0\].geometry is a Point"),
+        (collection({"type": "Point", "coordinates": [0, 0]}), "feature 0 is a Point"),
         (collection(None), "no Polygon or MultiPolygon in it"),
         ({"type": "Polygon"}, "coordinates is not a list"),
         (
             {"type": "Polygon", "coordinates": [SQUARE, HOLE[:-1]]},
-            r"coordinates\[1\] is open: .*\(1, 1\) and .*\(2, 1\)",
+            r"ring 1 is open: .*\(1, 1\) and .*\(2, 1\)",
         ),
-        ({"type": "Polygon", "coordinates": [[]]}, r"coordinates\[0\] is not a list of positions"),
-        ({"type": "Polygon", "coordinates": SQUARE}, r"coordinates\[0\] is not a list of positions"),
-        ({"type": "Polygon", "coordinates": [[[0, 0], ["x", 1], [0, 0]]]}, "not a list of positions"),
+        ({"type": "Polygon", "coordinates": [[]]}, "ring 0 is not a list of positions"),
+        ({"type": "Polygon", "coordinates": SQUARE}, "ring 0 is not a list of positions"),
+        (
+            {"type": "Polygon", "coordinates": [[[0, 0], ["x", 1], [0, 0]]]},
+            "ring 0 is not an array of numbers",
+        ),
         ({"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [0, 0]]]}, "2 different positions"),
         (
             {"type": "MultiPolygon", "coordinates": [[HOLE], [[[0, 0]]]]},
-            r"coordinates\[1\]\[0\] has 0 different",
+            "polygon 1, ring 0 has 0 different",
         ),
         ('{"type": "Polygon", "coordinates": [[[0, 0], [NaN, 1], [1, 1], [0, 0]]]}', "not a finite number"),
     ],
@@ -105,3 +108,20 @@ def test_crossing_outline_keeps_its_error_class_and_names_the_file(tmp_path):
     bow = {"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [1, 0], [0, 1], [0, 0]]]}
     with pytest.raises(ShapeError, match=r"^bow\.json: segment"):
         read_text(tmp_path, "bow.json", bow)
+
+
+def test_rings_that_cross_are_named_by_feature(tmp_path):
+    part = [[x + 3, y + 1] for x, y in SQUARE]
+    parts = [
+        {"type": "Polygon", "coordinates": [ring]}
+        for ring in ([[9, 9], [9, 8], [8, 9], [9, 9]], SQUARE, part)
+    ]
+    features = [{"type": "Feature", "geometry": geometry} for geometry in parts]
+    with pytest.raises(ShapeError, match=r"of feature 1, ring 0 meets segment .* of feature 2, ring 0 near"):
+        read_text(tmp_path, "a.json", {"type": "FeatureCollection", "features": features})
+
+
+@pytest.mark.parametrize("kind", [[], {}, None, 3, "x" * 1000])
+def test_a_type_that_is_no_name(tmp_path, kind):
+    with pytest.raises(InputError, match=r"the file is (no GeoJSON object|a x{40});"):
+        read_text(tmp_path, "a.json", {"type": kind, "coordinates": []})

@@ -124,3 +124,9 @@ def test_values_at_the_level_never_make_outlines_touch(image, level):
 def test_bad_masks(image, options, message):
     with pytest.raises(InputError, match=message):
         Shape.from_mask(image, **options)
+
+
+def test_noise_of_thousands_of_specks():
+    mask = np.random.default_rng(0).random((150, 150)) < 0.5
+    ground = label(~np.pad(mask, 1), structure=np.ones((3, 3)))[1]
+    assert Shape.from_mask(mask).betti() == (label(mask)[1], ground - 1)

@@ -85,3 +85,18 @@ def test_broken_pictures(tmp_path):
         (tmp_path / "b.png").write_bytes(content)
         with pytest.raises(InputError, match=r"^b\.png: the picture cannot be opened"):
             Shape.from_file(tmp_path / "b.png")
+
+
+def test_only_pictures_are_opened_as_pictures(tmp_path):
+    """PostScript would start Ghostscript, whatever the file is called."""
+    (tmp_path / "a.png").write_bytes(
+        b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n%%EndComments\nshowpage\n"
+    )
+    with pytest.raises(InputError, match="no known format"):
+        Shape.from_file(tmp_path / "a.png")
+
+
+def test_pictures_of_too_many_pixels(tmp_path):
+    Image.fromarray(np.zeros((4100, 4100), dtype=bool)).save(tmp_path / "a.png")
+    with pytest.raises(InputError, match="4100 x 4100 pixels, and 16,000,000 are the most; make it smaller"):
+        Shape.from_file(tmp_path / "a.png")

@@ -1,9 +1,12 @@
 """Arrays, and what every reader of files does."""
 
+import io
+import zipfile
+
 import numpy as np
 import pytest
 
-from polyskel_lite import InputError, PolyskelError, Shape, datasets
+from polyskel_lite import InputError, PolyskelError, Shape, Skeleton, datasets, sk0
 
 
 def test_npz_of_both_kinds(tmp_path):
@@ -51,3 +54,37 @@ def test_missing_empty_and_folder(tmp_path, suffix):
 def test_unknown_suffix(tmp_path, name):
     with pytest.raises(InputError, match=r"no reader for .*; it reads \.geojson, \.json, \.svg"):
         Shape.from_file(tmp_path / name)
+
+
+@pytest.mark.parametrize("read", [Shape.from_file, Skeleton.load])
+def test_npz_that_says_more_than_it_has(tmp_path, read):
+    """Two lines that claim 16 GB: refused before anything is allocated."""
+    header = io.BytesIO()
+    claim = {"descr": "<f8", "fortran_order": False, "shape": (10**9, 2)}
+    np.lib.format.write_array_header_1_0(header, claim)
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        archive.writestr("points.npy", header.getvalue() + b"few")
+    with pytest.raises(InputError, match="points says that it has 16,000,000,000 bytes, and it has 3"):
+        read(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("off", [[0, 2.5, 4], [1, 4], [0, 5], [0, 4, 4], [], 4])
+def test_npz_with_wrong_offsets(tmp_path, off):
+    np.savez(tmp_path / "a.npz", xy=np.zeros((4, 2)), off=off)
+    with pytest.raises(InputError, match="off must say where each ring begins"):
+        Shape.from_file(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("path", [None, 3, True, [], "", b"a.png", "a\0.png", object()])
+def test_what_is_no_path(path):
+    shape = datasets.load("gear")
+    for call in (Shape.from_file, Skeleton.load, shape.to_file, sk0(shape).save, sk0(shape).to_file):
+        with pytest.raises(InputError, match=r"path is .*; pass the name of a file"):
+            call(path)
+
+
+def test_folders_that_are_not_there(tmp_path):
+    skeleton = sk0(datasets.load("gear"))
+    for call, name in ((skeleton.save, "a.npz"), (skeleton.to_file, "a.ply"), (skeleton.to_file, "a.glb")):
+        with pytest.raises(InputError, match=f"{name} cannot be written"):
+            call(tmp_path / "nowhere" / name)

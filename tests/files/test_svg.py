@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 
-from polyskel_lite import InputError, Shape, datasets
+from polyskel_lite import InputError, Shape, ShapeError, datasets
 from polyskel_lite.files.svg import svg_rings
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg">{}</svg>'
@@ -141,4 +141,19 @@ def test_svg_rings_of_a_dataset_drawn_again(tmp_path):
         "M" + "L".join(f"{x!r} {-y!r} " for x, y in shape.points[r].tolist()) + "Z" for r in shape.rings()
     )
     (tmp_path / "gear.svg").write_text(SVG.format(f'<path d="{d}"/>'))
-    assert (np.concatenate(svg_rings(tmp_path / "gear.svg")) == shape.points).all()
+    assert (np.concatenate(svg_rings(tmp_path / "gear.svg")[0]) == shape.points).all()
+
+
+def test_svg_tolerance_that_asks_for_too_much(tmp_path):
+    with pytest.raises(
+        InputError, match=r"tolerance = 1e-15 asks for .* vertices, and 1,000,000 are the most"
+    ):
+        read_svg(tmp_path, '<circle r="5"/>', tolerance=1e-15)
+
+
+def test_svg_names_what_crosses(tmp_path):
+    body = '<rect id="a" x="20" width="4" height="3"/><path id="b" d="M 30 0h1v1z M 21 1h9v1h-9z"/>'
+    with pytest.raises(
+        ShapeError, match=r"of <rect> with id 'a' meets .* of subpath 1 of <path> with id 'b'"
+    ):
+        read_svg(tmp_path, body)

@@ -58,3 +58,10 @@ def test_arrays_are_copies_and_frozen():
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 2
     assert disc_boundary(Y.centers, Y.radii).arcs.ball.tolist() == [0]
+
+
+def test_patches_that_would_be_too_many():
+    with pytest.raises(
+        InputError, match=r"asks for .* triangles, and 1,000,000 are the most; pass 0\.\d+ or more"
+    ):
+        Polyball([(0, 0, 0)], [1]).patches(1e-9)

@@ -100,7 +100,7 @@ def test_bad_arrays():
     points, faces = cube()
     with pytest.raises(InputError, match=r"facets has shape \(12, 2\) .* pass an \(m, 3\) array of int"):
         Shape(points, faces[:, :2])
-    with pytest.raises(InputError, match=r"facets\[0, 0\] is 8, but vertices are 0 to 7"):
+    with pytest.raises(InputError, match=r"facets\[0, 0\] is 8, but there are only 0 to 7"):
         Shape(points, faces + 8)
     with pytest.raises(InputError, match=r"V\[0, 0\] is nan"):
         Shape.from_mesh(np.full((8, 3), np.nan), faces)

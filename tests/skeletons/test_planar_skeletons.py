@@ -194,3 +194,28 @@ def test_polygons_of_sk0_go_around_their_edge():
     for polygon in graph.polygons:
         sides = [*pairwise(polygon.tolist()), (polygon[-1], polygon[0])]
         assert all(frozenset(map(int, side)) in edges for side in sides)
+
+
+ALTERED = {
+    "edges": (lambda a: a + 0.5, "edges has shape .* type float64"),
+    "vertices": (lambda a: a * np.nan, r"vertex 0 is \[nan nan\]"),
+    "radii": (lambda a: -a, "vertex 0 is .* with radius -"),
+    "simplices": (lambda a: a + 10**6, r"simplices\[0\] is 1000"),
+    "rays": (lambda a: np.ones((2, 2)), "0 ray_vertices for 2 rays"),
+    "polygon_sizes": (lambda a: np.array([5]), "polygons of 5 corners in all have 0 corners"),
+    "tessellation_points": (lambda a: a[:-1], r"simplices\[.* but there are only 0 to"),
+    "tessellation_neighbors": (lambda a: np.roll(a, 1, axis=0), "has the neighbor"),
+    "tessellation_simplices": (lambda a: None, "there is no array tessellation_simplices"),
+}
+
+
+@pytest.mark.parametrize("name", ALTERED)
+def test_altered_skeletons_are_refused(tmp_path, name):
+    psl.sk0(psl.conform(psl.datasets.load("lake"))).save(tmp_path / "k.npz")
+    with np.load(tmp_path / "k.npz") as file:
+        arrays = dict(file)
+    alter, message = ALTERED[name]
+    arrays[name] = alter(arrays[name])
+    np.savez(tmp_path / "k.npz", **{key: array for key, array in arrays.items() if array is not None})
+    with pytest.raises(psl.InputError, match=f"k.npz is not a skeleton .*{message}"):
+        psl.Skeleton.load(tmp_path / "k.npz")

@@ -288,7 +288,7 @@ class Explore(WithStandIn):
         try:
             names = ", ".join(path.name for path in self.save())
             self._links.value = f'<p role="status">Written: {html.escape(names)}</p>'
-        except OSError as error:  # a folder that may not be written to
+        except (OSError, PolyskelError) as error:  # a folder that may not be written to
             self._links.value = f'<p role="alert">Not written: {html.escape(str(error))}</p>'
 
     def _say(self, sentence: str, alert: bool = False) -> None:
