@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..checks import as_choice, as_points, as_radii
-from ..errors import TangentBallsError
+from ..errors import InputError, TangentBallsError
 from ..skeletons import Skeleton
 from .boundary import BallBoundary
 from .generating import isolated_lenses, lonely, needed
@@ -71,7 +71,6 @@ class Polyball(BallBoundary):
         if not len(centers):
             raise InputError("centers is empty; a polyball needs at least one ball.")
         radii = as_radii(self.radii, len(centers))
-        check_squares(centers, radii)
         centers.setflags(write=False)
         radii.setflags(write=False)
         object.__setattr__(self, "centers", centers)

@@ -40,6 +40,8 @@ _PLANE = 1e-12
 
 # If rounding spoils the skeleton, balls that differ by less than such shares of their radius count as one.
 _ALIKE = (0.0, 1e-8, 1e-7, 1e-6, 1e-5)
+# Of balls more alike than this, triangulations show holes that are not there.
+_CLEAR = 1e-6
 
 
 class _Faces(NamedTuple):
@@ -141,7 +143,7 @@ def verified_skeleton(union: BallUnion) -> Skeleton:
             reason = error
             continue
         betti, allowed = skeleton.betti(), like.homotopy()
-        true = true or union.homotopy()
+        true = true or union.alike(_CLEAR).homotopy()
         # Circles in space may surround a point: it is no hole of the union, but one of its interior.
         if betti in allowed[0 if like.in_space else 1 :] and (betti in true or _steady(like, share)):
             return skeleton
@@ -149,9 +151,9 @@ def verified_skeleton(union: BallUnion) -> Skeleton:
 
 
 def _steady(union: BallUnion, share: float) -> bool:
-    """Whether no hole opens or closes if radii change by twice a share."""
+    """Whether no hole opens or closes if radii change by twice a share, of balls that stand for others."""
     low, high = union.homotopy(4 * share)
-    return low == high
+    return share > 0 and low == high
 
 
 def _hidden(union: BallUnion) -> str:

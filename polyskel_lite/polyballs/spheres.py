@@ -35,7 +35,7 @@ _POLE = np.array([0.48, 0.6, 0.64])
 # An arc deeper in a ball than this share of its radius is not on the boundary; less may be a badly known end.
 _DEEP = 1e-4
 _ROUNDS = 6
-_TRIPLES = 20_000_000  # rows of the table of triples: above, memory and patience end
+_TRIPLES = 4_000_000  # rows of the table of triples: above, memory and patience end
 
 
 class Circles(NamedTuple):

@@ -1,7 +1,7 @@
 """Balls that touch where other balls cover all around: no contact of the boundary, and the skeleton is there.
 
 The oracle looks: a point where two balls touch is hidden iff a small circle around it, in the plane between
-the balls (in the plane: two points), is in the others. Whole numbers keep all balls exactly through the point.
+the balls (or the two points there), is in the others. Whole numbers keep all balls exactly through it.
 """
 
 import numpy as np
