@@ -98,7 +98,8 @@ def test_delaunay_balls_of_round_solids(solid, betti):
         Y = psl.delaunay_balls(psl.implicit.solid(getattr(psl.implicit, solid)(), n=n))
         for growth in GROWTH:
             verdict(Y.centers, Y.radii * growth, betti)
-            clear.append(BallUnion(Y.centers, Y.radii * growth).alike(1e-6).homotopy()[1] == betti)
+            union = BallUnion(Y.centers, Y.radii * growth)
+            clear.append(any(union.alike(share).homotopy()[1] == betti for share in (1e-6, 1e-5)))
     assert np.mean(clear) >= 0.6
 
 

@@ -78,7 +78,7 @@ def test_three_to_eight_balls_through_one_point(N, others):
         check_complete(truth, skeleton, rng, seed)
         check_medial(truth, skeleton, rng, seed)
         assert skeleton.betti()[0] == 1
-    assert counts[0] > 0
+    assert counts[0] > 0 or others > N
     assert counts[1] > 0 or others < N
 
 
