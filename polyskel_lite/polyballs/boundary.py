@@ -66,7 +66,7 @@ class BallBoundary:
         Examples
         --------
         >>> from polyskel_lite import Polyball
-        >>> Polyball([(0, 0)], [2**900]).in_unit(np.array([2.0**900])).tolist()
+        >>> Polyball([(0, 0)], [2.0**900]).in_unit(np.array([2.0**900])).tolist()
         [0.5]
         """
         with np.errstate(over="ignore"):  # places this far away are far away
@@ -78,7 +78,7 @@ class BallBoundary:
         Examples
         --------
         >>> from polyskel_lite import Polyball
-        >>> Polyball([(0, 0)], [2**900]).from_unit(np.array([0.5])).tolist() == [2.0**900]
+        >>> Polyball([(0, 0)], [2.0**900]).from_unit(np.array([0.5])).tolist() == [2.0**900]
         True
         """
         return np.ldexp(lengths, self._exponent)

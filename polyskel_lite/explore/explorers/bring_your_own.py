@@ -192,7 +192,7 @@ class Explore(WithStandIn):
         >>> own = explore()
         >>> own.load("nowhere.png")
         >>> print(own.error)
-        nowhere.png: there is no such file; check the path nowhere.png.
+        nowhere.png: there is no such file; check the path 'nowhere.png'.
         """
         self.chain, self.error, self.picture = None, None, None
         self._links.value = ""
