@@ -23,6 +23,7 @@ BESIDE = [
     "notebooks/claims.toml",
     "polyskel_lite/**/*.py",
     "tests/claims/*.py",
+    "tests/fuzz/*.py",
     "tests/truth/*.py",
     "benchmarks/*",
 ]

@@ -32,7 +32,8 @@ class Polygons(Sequence):
     def __init__(self, corners=(), sizes=()):
         most = np.iinfo(np.intp).max
         self.corners = as_indices(corners, "polygon_corners", most).astype(np.intp, copy=False)
-        self.sizes = as_indices(sizes, "polygon_sizes", most, low=3).astype(np.intp, copy=False)
+        # Two corners: a sheet of a polyball as thin as rounding, which its own check judges.
+        self.sizes = as_indices(sizes, "polygon_sizes", most, low=2).astype(np.intp, copy=False)
         if self.sizes.sum() != len(self.corners):
             raise InputError(
                 f"polygons of {self.sizes.sum()} corners in all have {len(self.corners)} corners."
