@@ -221,7 +221,8 @@ def homotopy(t: PowerTriangulation, radii: np.ndarray, slack: float = _SHARED) -
             found[n + 1] = upper, shape | (own[:, below].reshape(2, n + 1, -1).all(axis=1) & flat)
         upper, shape = faces, own
         found[size] = faces, own
-    return [_betti(t, {size: faces[own[k]] for size, (faces, own) in found.items()}) for k in range(2)]
+    shapes = [{size: faces[own[k]] for size, (faces, own) in found.items()} for k in range(2)]
+    return [_betti(t, shape, solid) for shape, solid in zip(shapes, found[n + 1][1], strict=True)]
 
 
 def _below(t, upper, size: int) -> tuple[np.ndarray, np.ndarray]:
@@ -245,24 +246,23 @@ def _orthoballs(points, weights, faces) -> tuple[np.ndarray, np.ndarray]:
     return middle, np.where(flat, np.inf, (middle**2).sum(axis=1) - weights[faces[:, 0]])
 
 
-def _betti(t, shape) -> tuple[int, ...]:
-    """Betti numbers of a part of the triangulation, given as its simplices by size."""
+def _betti(t, shape, solid) -> tuple[int, ...]:
+    """Betti numbers of a part of the triangulation: its simplices by size, and which largest ones it has."""
     used, ends = np.unique(shape[2], return_inverse=True)
     pieces = components(len(used), ends.reshape(-1, 2))[0] + len(shape[1]) - len(used)
     characteristic = sum((-1) ** (size - 1) * len(faces) for size, faces in shape.items())
     if len(shape) == 3:
         return pieces, pieces - characteristic
     # A cavity is what can be walked through from gap to gap; beyond the last simplex is one more gap.
-    outside, base = len(t.simplices), len(t.points)
-    solid, walls = (np.sort(shape[size] @ base ** np.arange(size)) for size in (4, 3))
-    gap = np.append(~np.isin(np.sort(t.simplices, axis=1) @ base ** np.arange(4), solid), True)
-    doors = []
-    for corner in range(4):
-        wall = np.sort(np.delete(t.simplices, corner, axis=1), axis=1) @ base ** np.arange(3)
-        open_ = np.flatnonzero(~np.isin(wall, walls))
-        beyond = t.neighbors[open_, corner]
-        doors.append(np.column_stack([open_, np.where(beyond < 0, outside, beyond)]))
-    cavities = len(np.unique(components(outside + 1, np.concatenate(doors))[1][gap])) - 1
+    outside, walls = len(t.simplices), len(shape[3])
+    gap = np.ones(outside + 1, dtype=bool)
+    gap[:-1][t.real()] = ~solid
+    sides = [np.sort(np.delete(t.simplices, corner, axis=1), axis=1) for corner in range(4)]
+    which = unique_rows(np.concatenate([shape[3], *sides]), len(t.points))[1]
+    corner, simplex = np.nonzero(~np.isin(which[walls:], which[:walls]).reshape(4, -1))
+    beyond = t.neighbors[simplex, corner]
+    doors = np.column_stack([simplex, np.where(beyond < 0, outside, beyond)])
+    cavities = len(np.unique(components(outside + 1, doors)[1][gap])) - 1
     return pieces, pieces + cavities - characteristic, cavities
 
 
