@@ -20,7 +20,7 @@ ROOMS = {
     "shapes": ("2.1", 1.9),
     "containment": ("3.4, 3.5", 1.2),
     "skeletons": ("3", 1.0),
-    "simplification": ("4", 1.7),
+    "simplification": ("4", 1.5),
     "polyballs": ("A", 0.4),
     "datasets": ("", 3.0),
     "implicit": ("", 2.1),
@@ -124,17 +124,17 @@ def picture(texts: dict[str, str]) -> str:
     reach: dict[str, set[str]] = {}
     for name in ROOMS:
         reach[name] = below[name].union(*(reach[other] for other in below[name]))
-    width, height, step = 132, 44, 84
+    width, height, step = 150, 52, 90
     top = max(floor.values())
     place = {
-        name: (40 + 190 * column, (top - floor[name]) * step + 30) for name, (_, column) in ROOMS.items()
+        name: (40 + 190 * column, (top - floor[name]) * step + 32) for name, (_, column) in ROOMS.items()
     }
     said = "; ".join(f"{name} from {', '.join(sorted(rooms)) or 'nothing'}" for name, rooms in below.items())
-    tall = step * top + 60
+    tall = step * top + 62
     out = [
         f'<svg viewBox="0 0 720 {tall}" role="img" style="max-width:720px;width:100%"',
         f' aria-label="{escape(f"Rooms of the library on their floors. Imports: {said}.")}" fill="none"',
-        ' stroke="currentColor" font-size="14">',
+        ' stroke="currentColor" font-size="18">',
     ]
     for name, others in below.items():
         for other in sorted(others - set().union(*(reach[o] for o in others))):
@@ -147,8 +147,8 @@ def picture(texts: dict[str, str]) -> str:
         text = 'stroke="none" fill="currentColor" text-anchor="middle"'
         section = ROOMS[name][0]
         number = section and ("appendix A" if section == "A" else f"section {section}")
-        out.append(f'<text x="{x}" y="{y + (-2 if number else 5)}" {text}>{name}</text>')
-        out.append(f'<text x="{x}" y="{y + 15}" {text} font-size="11">{number}</text>' if number else "")
+        out.append(f'<text x="{x}" y="{y + (-3 if number else 6)}" {text}>{name}</text>')
+        out.append(f'<text x="{x}" y="{y + 17}" {text} font-size="14">{number}</text>' if number else "")
     return "".join([*out, "</svg>"])
 
 

@@ -126,6 +126,15 @@ class TestChapter:
             assert not MACHINE_PATHS.search(text(cell) + json.dumps(shown)), text(cell)
 
 
+def test_tables_that_cells_print_are_shown_as_tables():
+    """The book reads a cell's Markdown as CommonMark, which has no tables, unless the cell says MyST."""
+    for path in NOTEBOOKS:
+        for cell in cells(path, "code"):
+            printed = "".join("".join(o.get("data", {}).get("text/markdown", "")) for o in cell["outputs"])
+            if re.search(r"^\|[-:| ]+\|$", printed, re.MULTILINE):
+                assert cell["metadata"].get("mystnb", {}).get("markdown_format") == "myst", path.name
+
+
 def test_checker_of_pages_finds_what_it_looks_for(tmp_path):
     page = '<a href="gone.html">x</a><img src="//host/x.png"><a href="https://host/">a link is fine</a>'
     (tmp_path / "index.html").write_text(page, encoding="utf-8")
