@@ -6,7 +6,7 @@ Hausdorff distances. Apart from samples: the maximal balls of a polygon itself.
 """
 
 from .branch_tables import Branch, branch_csv, branch_rows
-from .branches import branch_graph, free_edges, smooth_length
+from .branches import branch_graph, free_edges, smooth_lengths
 from .distances import directed_hausdorff, hausdorff
 from .four_methods import sk0, sk1, sk2, sk3
 from .maximal_balls import contact_points, grown_ball

@@ -30,7 +30,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     networkx.MultiGraph
         Nodes: skeleton vertices that are ends or junctions, with ``kind`` ("end", "junction", "sheet",
         "loop", "point"), ``pos`` and ``radius`` (sheets: ``vertices`` instead). Edges: one a branch, with
-        ``path`` (vertex numbers), ``length``, ``smooth_length`` (see `smooth_length`), ``radii`` along it.
+        ``path`` (vertex numbers), ``length``, ``smooth_length`` (see `smooth_lengths`), ``radii`` along it.
         ``graph.graph["branches"]`` is the number of ends, which is what the paper counts.
 
     Examples
@@ -84,6 +84,11 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
             start, towards = ends[e].tolist()
             graph.add_node(start, kind="loop", **_place(skeleton, start))
             walk(start, e, towards)
+    paths = [path for _, _, path in graph.edges(data="path")]
+    places = np.concatenate([np.zeros(0, dtype=np.intp), *paths]).astype(np.intp)
+    smooth = smooth_lengths(skeleton.vertices[places], skeleton.radii[places], [len(path) for path in paths])
+    for (_, _, data), length in zip(graph.edges(data=True), smooth.tolist(), strict=True):
+        data["smooth_length"] = length
     graph.graph["branches"] = sum(kind == "end" for _, kind in graph.nodes(data="kind"))
     return graph
 
@@ -103,51 +108,75 @@ def _add_branch(graph, skeleton, path, real):
         vertices.reverse()
     points = skeleton.vertices[vertices]
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    smooth = smooth_length(points, skeleton.radii[vertices])
     radii = skeleton.radii[vertices].tolist()
-    graph.add_edge(path[0], path[-1], path=vertices, length=length, smooth_length=smooth, radii=radii)
+    graph.add_edge(path[0], path[-1], path=vertices, length=length, radii=radii)
 
 
-def smooth_length(points: np.ndarray, radii: np.ndarray) -> float:
-    """Length of a chain of Voronoi vertices without its zigzag between the samples.
+def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
+    """Lengths of chains of Voronoi vertices without their zigzag between the samples.
 
-    Every point of the chain is replaced by the mean of the piece around it that is as long as its radius,
-    half to each side, shorter towards the ends, which stay.
+    Every point of a chain is replaced by the mean of the piece around it that is as long as its radius, half
+    to each side, shorter towards the ends, which stay.
 
     Parameters
     ----------
     points : (k, N) float array
+        Of all chains, one after the other.
     radii : (k,) float array
+    sizes : (m,) int array
+        How many points each chain has, two at least.
+
+    Returns
+    -------
+    (m,) float array
 
     Examples
     --------
     >>> x = np.arange(0, 16.25, 0.25)
     >>> zigzag = np.column_stack([x, 0.1 * (np.arange(len(x)) % 2)])
     >>> raw = float(np.linalg.norm(np.diff(zigzag, axis=0), axis=1).sum())
-    >>> round(raw, 1), round(smooth_length(zigzag, np.full(len(x), 2.0)), 1)
-    (17.2, 16.0)
+    >>> round(raw, 1), smooth_lengths(zigzag, np.full(len(x), 2.0), [len(x)]).round(1).tolist()
+    (17.2, [16.0])
     """
+    sizes = np.asarray(sizes, dtype=np.intp)
+    if not len(sizes):
+        return np.zeros(0)
+    first, last = np.cumsum(sizes) - sizes, np.cumsum(sizes) - 1
+    # Seen from their own beginning, chains far from the origin lose no digits in the integral below.
+    points = points - np.repeat(points[first], sizes, axis=0)
     pieces = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    pieces[last[:-1]] = 0  # from one chain to the next
     along = np.concatenate([[0.0], np.cumsum(pieces)])
-    total = along[-1]
-    if total == 0:
-        return 0.0
-    # The integral of the chain up to each vertex; within a piece it is a parabola.
-    integral = np.zeros_like(points)
-    integral[1:] = np.cumsum(pieces[:, None] * (points[1:] + points[:-1]) / 2, axis=0)
+    # The integral of the chains up to each vertex; within a piece it is a parabola.
+    steps = pieces[:, None] * (points[1:] + points[:-1]) / 2
+    integral = np.concatenate([np.zeros_like(points[:1]), np.cumsum(steps, axis=0)])
+    # Four places for each vertex, and the two ends.
+    count = 4 * sizes + 1
+    chain = np.repeat(np.arange(len(sizes)), count)
+    share = (np.arange(len(chain)) - np.repeat(np.cumsum(count) - count, count)) / (count - 1)[chain]
+    begin, end = along[first][chain], along[last][chain]
+    s = begin + share * (end - begin)
+
+    def vertex_before(s):
+        return np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
+
+    def at(s, k):
+        part = ((s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1))[:, None]
+        return points[k] + part * (points[k + 1] - points[k])
 
     def up_to(s):
-        k = np.clip(np.searchsorted(along, s, side="right") - 1, 0, len(pieces) - 1)
-        step = s - along[k]
-        share = (step / np.where(pieces[k] > 0, pieces[k], 1))[:, None]
-        end = points[k] + share * (points[k + 1] - points[k])
-        return integral[k] + step[:, None] * (points[k] + end) / 2
+        k = vertex_before(s)
+        return integral[k] + (s - along[k])[:, None] * (points[k] + at(s, k)) / 2
 
-    s = np.linspace(0, total, 4 * len(points) + 1)[1:-1]
-    half = np.minimum(np.interp(s, along, radii) / 2, np.minimum(s, total - s))[:, None]
-    middle = (up_to(s + half[:, 0]) - up_to(s - half[:, 0])) / (2 * half)
-    chain = np.concatenate([points[:1], middle, points[-1:]])
-    return float(np.linalg.norm(np.diff(chain, axis=0), axis=1).sum())
+    k = vertex_before(s)
+    part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
+    half = np.minimum((radii[k] + part * (radii[k + 1] - radii[k])) / 2, np.minimum(s - begin, end - s))
+    wide = ((half > 0) & (share > 0) & (share < 1))[:, None]  # the ends stay
+    mean = (up_to(s + half) - up_to(s - half)) / np.where(wide, 2 * half[:, None], 1)
+    ways = np.linalg.norm(np.diff(np.where(wide, mean, at(s, k)), axis=0), axis=1)
+    ways = np.append(ways, 0.0)
+    ways[np.cumsum(count) - 1] = 0
+    return np.add.reduceat(ways, np.cumsum(count) - count)
 
 
 def free_edges(skeleton: Skeleton) -> np.ndarray:

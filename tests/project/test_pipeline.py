@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import polyskel_lite as psl
+from polyskel_lite.skeletons import smooth_lengths
 
 
 def test_rectangle_has_its_axis():
@@ -48,4 +49,18 @@ def test_files_and_refusals(tmp_path):
 def test_a_straight_bar_of_16_measures_16(zigzag):
     x = np.arange(0, 16.25, 0.25)
     points = np.column_stack([x, zigzag * (np.arange(len(x)) % 2), np.zeros_like(x)])
-    assert psl.skeletons.smooth_length(points, np.full(len(x), 2.0)) == pytest.approx(16, rel=0.01)
+    assert smooth_lengths(points, np.full(len(x), 2.0), [len(x)])[0] == pytest.approx(16, rel=0.01)
+
+
+def test_chains_do_not_know_of_each_other():
+    rng = np.random.default_rng(0)
+    sizes = [2, 7, 3, 40, 2]
+    points, radii = rng.normal(size=(sum(sizes), 2)), rng.random(sum(sizes))
+    cuts = np.cumsum(sizes)[:-1]
+    alone = [
+        smooth_lengths(p, r, [len(r)])[0]
+        for p, r in zip(np.split(points, cuts), np.split(radii, cuts), strict=True)
+    ]
+    assert smooth_lengths(points, radii, sizes) == pytest.approx(alone, rel=1e-12)
+    assert smooth_lengths(points + 1e6, radii, sizes) == pytest.approx(alone, rel=1e-6)
+    assert alone[0] == pytest.approx(np.linalg.norm(points[1] - points[0]), rel=1e-12)
