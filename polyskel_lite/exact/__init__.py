@@ -28,6 +28,8 @@ from .segments import (
     odd_around,
     point_segment_distance,
 )
+from .signs import flat_turn, in_circle, in_sphere, turn_2d, turn_3d, whole_numbers
+from .signs import loops as sign_loops
 from .topology import betti_numbers, components, euler_characteristic, occurrences
 from .triangles import (
     locate_in_mesh,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..checks import MOST_POINTS, as_indices, as_points, check_distinct
+from ..checks import MOST_POINTS, as_indices, as_points
 from ..errors import InputError
 from .tessellation import Tessellation
 from .triangulation import triangulate
@@ -16,31 +16,32 @@ def delaunay(points, facets=None) -> Tessellation:
     points : (n, N) array-like, N = 2 or 3
         All different, not all in one line or plane; any unit, any distance from the origin.
     facets : (m, N) array-like of int, optional
-        Segments to prefer among the diagonals of cocircular samples (2D): a boundary that is in
-        one of the possible tessellations is then in this one.
+        Boundary facets to prefer among the diagonals of cocircular samples. In 2D a boundary that is in one of
+        the possible tessellations is in this one. In 3D the diagonals of its flat faces are preferred where
+        cones from vertices of cospherical cells give them.
 
     Returns
     -------
     Tessellation
-        Cocircular or cospherical points get one of their possible tessellations, without flat simplices.
+        Cocircular or cospherical points get one of their possible tessellations, without flat simplices; which
+        one, depends on the coordinates and facets only, not on the order of the points.
 
     Raises
     ------
     InputError, DuplicatePointError
         If the array is not one of distinct finite points.
     TessellationError
-        If there are fewer than N+1 points, if all are in one line or plane, or if no tessellation
-        passed the check.
+        If there are fewer than N+1 points, or if all are in one line or plane.
 
     Notes
     -----
-    Qhull does the work on centred and scaled copies. Then every point must be used, every simplex
-    positively oriented, every neighbouring vertex outside the open ball, the hull convex: signs by
-    `predicates`, so they are those of the points as given.
+    Points are inserted one by one, every sign exact; see `polyskel_lite.graphs.insertion`. With the extra ``fast``
+    the loops are compiled, from 2,000 points on or where that was done before. Small sets, and all without the
+    extra, go through Qhull first; its answer is taken if it passes an exact check and is the only one.
 
     References
     ----------
-    Barber, Dobkin and Huhdanpaa, The Quickhull algorithm for convex hulls, 1996.
+    Bowyer 1981; Watson 1981; Barber, Dobkin and Huhdanpaa, The Quickhull algorithm for convex hulls, 1996.
 
     Examples
     --------
@@ -51,7 +52,6 @@ def delaunay(points, facets=None) -> Tessellation:
     points = as_points(points)
     if len(points) >= MOST_POINTS:
         raise InputError(f"there are {len(points):,} points, and {MOST_POINTS:,} are too many; thin them.")
-    check_distinct(points)
     if facets is not None:
         facets = as_indices(facets, "facets", len(points), points.shape[1])
     return Tessellation(points, *triangulate(points, facets))

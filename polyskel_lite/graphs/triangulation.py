@@ -1,29 +1,28 @@
-"""Delaunay simplices that pass an exact check: Qhull first, slower methods for what it gets wrong."""
+"""Delaunay simplices, unique for given points: Qhull for small sets, by an exact check; else `Growing`."""
 
 from __future__ import annotations
-
-from functools import cache
 
 import numpy as np
 from scipy.spatial import Delaunay, QhullError
 
 from ..errors import TessellationError
 from ..exact import in_ball, orientation
-from .cocircular import with_segments
-from .incremental import incremental_delaunay
-from .mending import mended
+from .cocircular import cone_ranks, with_segments
+from .growing import Growing, canonical, compiled_wanted
 from .tessellation import OPPOSITE
 
 
 def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of distinct points; exact.
+    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of points; exact.
 
-    In 2D, ``facets`` are segments to prefer among the diagonals of cocircular samples.
+    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties.
 
     Raises
     ------
+    DuplicatePointError
+        If two points are equal.
     TessellationError
-        If there is no tessellation, or none that passes `problem`.
+        If all points are in one line or plane.
 
     Examples
     --------
@@ -33,43 +32,58 @@ def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[n
     n, dimension = points.shape
     if n <= dimension:
         raise TessellationError(f"{n} points in {dimension}D; a tessellation needs at least {dimension + 1}.")
-    reason = ""
-    for candidate in _candidates(points):
-        try:
-            simplices, neighbors = candidate()
-        except QhullError as error:
-            reason = str(error).strip().splitlines()[0]
-            continue
-        if not len(simplices):
-            reason = "all simplices are flat"
-            continue
-        reason = problem(points, simplices, neighbors)
-        if not reason:
-            if facets is not None and dimension == 2:
-                simplices, neighbors = with_segments(points, simplices, neighbors, facets)
-            return _canonical(simplices, neighbors)
-    if _flat(points):
-        where = "line" if dimension == 2 else "plane"
-        raise TessellationError(f"all {n} points are in one {where}; add a point outside of it.")
-    raise TessellationError(f"no Delaunay tessellation passed the exact check ({reason}).")
+    found = None if compiled_wanted(n, dimension) else _qhull(points)
+    if found is None:
+        found = Growing(points).simplices_and_neighbors()
+    if facets is not None:
+        return preferring(points, *found, facets)
+    return found
 
 
-def _candidates(points):
-    centred = points - (points.min(axis=0) + points.max(axis=0)) / 2
-    scale = np.abs(centred).max()
-    centred = centred / scale if scale > 0 else centred
-    quick = cache(lambda: _qhull(centred))
-    yield lambda: _orient(points, *map(np.copy, quick()))
+def preferring(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, facets: np.ndarray):
+    """Of the tessellations of these points one that has the facets, as far as its ties allow.
+
+    Examples
+    --------
+    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    >>> preferring(square, *triangulate(square), np.array([[1, 3]]))[0].tolist()
+    [[0, 1, 3], [1, 2, 3]]
+    """
+    missing = ~_has(simplices, facets, len(points))
+    if not missing.any():
+        return simplices, neighbors
     if points.shape[1] == 2:
-        yield lambda: mended(points, *quick())
-    yield lambda: incremental_delaunay(points)
+        return canonical(*with_segments(points, simplices, neighbors, facets, missing))
+    ranks = cone_ranks(points, facets)
+    return Growing(points, ranks).simplices_and_neighbors() if ranks.any() else (simplices, neighbors)
+
+
+def _has(simplices, facets, n) -> np.ndarray:
+    """Whether each facet is one of a simplex."""
+    size = simplices.shape[1]
+    weights = n ** np.arange(size - 1)  # n**3 fits in 63 bits for two million points
+    there = np.sort(
+        np.concatenate([np.sort(simplices[:, side], axis=1) @ weights for side in OPPOSITE[size]])
+    )
+    wanted = np.sort(facets, axis=1) @ weights
+    return there[np.searchsorted(there, wanted).clip(max=len(there) - 1)] == wanted
 
 
 def _qhull(points):
-    tessellation = Delaunay(points)
-    if (tessellation.simplices >= len(points)).any():  # seen for points that are nearly in one line
-        raise QhullError("a simplex has a corner at infinity")
-    return tessellation.simplices.astype(np.int64), tessellation.neighbors.astype(np.int64)
+    """What Qhull finds, if it passes `problem` and there are no ties: then there is no other tessellation."""
+    centred = points - (points.min(axis=0) + points.max(axis=0)) / 2
+    scale = np.abs(centred).max()
+    try:
+        tessellation = Delaunay(centred / scale if scale > 0 else centred)
+    except QhullError:
+        return None
+    simplices, neighbors = tessellation.simplices.astype(np.int64), tessellation.neighbors.astype(np.int64)
+    if (simplices >= len(points)).any():  # seen for points that are nearly in one line
+        return None
+    simplices, neighbors = _orient(points, simplices, neighbors)
+    if not len(simplices) or problem(points, simplices, neighbors, unique=True):
+        return None
+    return canonical(simplices, neighbors)
 
 
 def _keep(simplices, neighbors, keep):
@@ -89,34 +103,8 @@ def _orient(points, simplices, neighbors):
     return simplices, neighbors
 
 
-def _canonical(simplices, neighbors):
-    """The same in one order: rows and vertices increasing, but for the last two of odd simplices."""
-    inside = np.argsort(simplices, axis=1)
-    simplices, neighbors = (np.take_along_axis(array, inside, axis=1) for array in (simplices, neighbors))
-    # Sorting the corners turns a simplex over if it takes an odd number of exchanges.
-    pairs = [(i, j) for j in range(inside.shape[1]) for i in range(j)]
-    odd = np.flatnonzero(sum((inside[:, i] > inside[:, j]).astype(int) for i, j in pairs) % 2)
-    for array in (simplices, neighbors):
-        array[odd, -2:] = array[odd, :-3:-1]
-    order = _order(simplices)
-    new = np.append(np.argsort(order), -1)
-    return simplices[order], new[neighbors[order]]
-
-
-def _order(simplices):
-    """The lexicographic order of the rows: that of one key, as no three simplices share a facet."""
-    n = simplices.max() + 1
-    # n**3 fits in 63 bits for two million points.
-    key = simplices[:, :-1] @ (n ** np.arange(simplices.shape[1] - 1)[::-1])
-    order = np.argsort(key)
-    tie = np.flatnonzero(key[order[1:]] == key[order[:-1]])
-    tie = tie[simplices[order[tie], -1] > simplices[order[tie + 1], -1]]
-    order[tie], order[tie + 1] = order[tie + 1], order[tie]
-    return order
-
-
-def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) -> str:
-    """What keeps these simplices from being a Delaunay tessellation of the points, or ''; exact.
+def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, unique: bool = False) -> str:
+    """What keeps these simplices from being a (or the only) Delaunay tessellation of the points, or ''; exact.
 
     Examples
     --------
@@ -140,10 +128,12 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) ->
     back = (neighbors[second] == first[:, None]).argmax(axis=1)
     if (neighbors[second, back] != first).any():
         return "neighbors disagree"
-    if (
-        in_ball(_corners(points, simplices[first]), points[simplices[second, back]], positive=True) > 0
-    ).any():
+    apex = points[simplices[second, back]]
+    where = in_ball(_corners(points, simplices[first]), apex, positive=True).max(initial=-1)
+    if where > 0:
         return "a sample is inside a Delaunay ball"
+    if where == 0 and unique:
+        return "samples are cospherical"
     # Both are positive, so they are on different sides of their facet if they see it in opposite senses.
     near, far = (
         simplices[first[:, None], OPPOSITE[size][local]],
@@ -184,15 +174,3 @@ def _hull_problem(points, simplices, neighbors, corners):
         if (orientation(cell) < 0).any():
             return "the hull is not convex"
     return ""
-
-
-def _flat(points) -> bool:
-    """Whether all points are in one line (2D) or plane (3D), exactly."""
-    base = points[0]
-    far = points[np.argmax(((points - base) ** 2).sum(axis=1))]
-    if points.shape[1] == 2:
-        cells = np.broadcast_to(np.stack([base, far]), (len(points), 2, 2))
-    else:
-        off = np.argmax((np.cross(points - base, far - base) ** 2).sum(axis=1))
-        cells = np.broadcast_to(np.stack([base, far, points[off]]), (len(points), 3, 3))
-    return not orientation(np.concatenate([cells, points[:, None]], axis=1)).any()
