@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
-from ..errors import InputError, TessellationError
-from ..exact import point_segment_distance
-from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
+from ..errors import DuplicatePointError, InputError, TessellationError
+from ..exact import in_gabriel_ball, overlapping_pairs, point_segment_distance
+from ..graphs import OPPOSITE, Change, Tessellation, facet_rows, gabriel_mask, grown_from, preferring
 from ..shapes import Shape, check_shape
 from .conforming_solids import conform_solid
 
@@ -46,15 +45,19 @@ def missing_facets(
     check_shape(shape)
     as_choice(of, "graph", _GRAPHS)
     if tessellation is None:
-        tessellation = delaunay(shape.points, shape.facets)
+        tessellation = shape.tessellation
     as_instance(tessellation, Tessellation, "tessellation", "delaunay(shape.points, shape.facets), or None")
     if not np.array_equal(tessellation.points, shape.points):
         raise InputError("tessellation is not that of the shape's vertices; leave it out.")
-    rows = facet_rows(tessellation, shape.facets)
-    missing = rows < 0
+    return np.flatnonzero(~_in_graph(tessellation, shape.facets, of))
+
+
+def _in_graph(tessellation: Tessellation, facets: np.ndarray, of: str) -> np.ndarray:
+    rows = facet_rows(tessellation, facets)
+    there = rows >= 0
     if of == "gabriel":
-        missing[~missing] = ~gabriel_mask(tessellation, closed=True, rows=rows[~missing])
-    return np.flatnonzero(missing)
+        there[there] = gabriel_mask(tessellation, closed=True, rows=rows[there])
+    return there
 
 
 def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Shape:
@@ -109,9 +112,8 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
     limit = _limit(limit)
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)
-    for stage in _stages(shape, to, limit):
-        last = stage
-    return Shape(last.points, last.facets) if len(last.points) > len(shape.points) else shape
+    *_, (last, tessellation) = _stages(shape, to, limit)
+    return Shape.refined(last.facets, tessellation) if len(last.points) > len(shape.points) else shape
 
 
 class Stage(NamedTuple):
@@ -173,7 +175,7 @@ def conform_stages(shape: Shape, to: str = "gabriel", limit: int | None = None) 
     as_choice(to, "graph", _GRAPHS)
     if shape.dimension != 2:
         raise InputError("the rounds of refinement are shown for shapes in the plane; use conform(shape).")
-    return _stages(shape, to, _limit(limit))
+    return (stage for stage, _ in _stages(shape, to, _limit(limit)))
 
 
 def _limit(limit):
@@ -183,85 +185,143 @@ def _limit(limit):
     return limit
 
 
-def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[Stage]:
-    points, facets = list(map(tuple, shape.points.tolist())), list(map(tuple, shape.facets.tolist()))
+def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[tuple[Stage, Tessellation | None]]:
+    """The stages, the last one with its tessellation."""
+    points, facets, tessellation = shape.points, shape.facets, shape.tessellation
     acute = _acute_corners(shape)
     limit = 10_000 + 10 * len(points) if limit is None else limit
-    while True:
-        array = np.array(points)
-        current = np.array(facets)
-        tessellation = delaunay(array, current)
-        rows = facet_rows(tessellation, current)
-        missing = rows < 0
-        if to == "gabriel":
-            missing[~missing] = ~gabriel_mask(tessellation, closed=True, rows=rows[~missing])
-        corners = sorted(acute & set(current[missing].ravel().tolist()))
-        stage = Stage(array, current, np.flatnonzero(missing), np.array(corners, dtype=np.int64))
-        yield stage
-        if not missing.any():
-            return
-        cuts: dict[int, np.ndarray] = {}
-        for corner in corners:
-            _cut_corner(corner, array, current, cuts)
-        acute -= set(corners)
-        cuts |= {k: array[current[k]].mean(axis=0)[None] for k in stage.halved.tolist()}
-        _insert(shape, points, facets, cuts)
+    there = _in_graph(tessellation, facets, to)
+    growing = None
+    while not there.all():
+        missing = np.flatnonzero(~there)
+        corners = np.intersect1d(facets[missing], acute)
+        acute = np.setdiff1d(acute, corners)
+        stage = Stage(points, facets, missing, corners)
+        yield stage, None
+        if growing is None:
+            growing = grown_from(tessellation)
+        where = near(points[facets[missing[0]]])
+        new, facets, cut = _cut(stage)
+        try:
+            change = growing.add(new)
+        except DuplicatePointError:
+            raise _no_room(shape, points, new) from None
+        points = growing.points
         if len(points) > limit:
-            k = np.flatnonzero(missing)[0]
             raise TessellationError(
-                f"more than {limit} vertices are needed, and the boundary near {near(array[current[k]])} is "
+                f"more than {limit} vertices are needed, and the boundary near {where} is "
                 f"still not in the {to} graph: the shape is very thin there. Widen it, or raise the limit."
             )
+        if to == "gabriel":
+            there = np.append(there, np.zeros(len(facets) - len(there), dtype=bool))
+            there[cut] = False
+            _update(there, points, facets, change)
+        else:  # a diagonal of cocircular samples may be in another tessellation
+            tessellation = Tessellation(
+                points, *preferring(points, *growing.simplices_and_neighbors(), facets)
+            )
+            there = _in_graph(tessellation, facets, to)
+    if growing is not None and to == "gabriel":  # Gabriel facets are in every tessellation
+        tessellation = Tessellation(points, *growing.simplices_and_neighbors())
+    yield Stage(points, facets, *np.zeros((2, 0), dtype=np.int64)), tessellation
 
 
-def _insert(shape: Shape, points, facets, cuts) -> None:
-    taken = set(points)
-    for k, cut in cuts.items():
-        a, b = facets[k]
-        chain = [a]
-        for point in map(tuple, cut.tolist()):
-            if point in taken:
-                # The reader knows the vertices of the shape, and none that were added.
-                _, (i, j) = cKDTree(shape.points).query(point, k=2)
-                apart = np.linalg.norm(shape.points[i] - shape.points[j])
-                raise TessellationError(
-                    f"near {near(np.array([point]))}, floats leave no room for another vertex: vertices "
-                    f"{min(i, j)} and {max(i, j)} are {apart:.2g} apart there; merge vertices closer than "
-                    f"{2 * apart:.1g}, or move the shape nearer to the origin."
-                )
-            taken.add(point)
-            chain.append(len(points))
-            points.append(point)
-        chain.append(b)
-        pieces = list(pairwise(chain))
-        facets[k] = pieces[0]
-        facets.extend(pieces[1:])
+def _cut(stage: Stage) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points that cut the facets of a stage, the facets then, and which of the old ones were cut.
+
+    The first piece of a facet keeps its row, the others come after all.
+    """
+    points, facets = stage.points, stage.facets
+    ends = points[facets]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    share = np.full((2, len(facets)), np.nan)  # of the length, where there is a cut near either end
+    if len(stage.corners):
+        distance = np.full(len(points), np.nan)
+        distance[stage.corners] = _distances(stage.corners, points, facets)
+        near_end = distance[facets]
+        for end in range(2):
+            at = ~np.isnan(near_end[:, end])
+            share[end, at] = near_end[at, end] / length[at]
+    share[0, stage.halved] = 1 / 2
+    cut = ~np.isnan(share)
+    first, second = (
+        ends[c, k] + (ends[c, 1 - k] - ends[c, k]) * share[k, c, None] for k, c in enumerate(cut)
+    )
+    first[np.searchsorted(np.flatnonzero(cut[0]), stage.halved)] = ends[stage.halved].mean(axis=1)
+    n = len(points)
+    number = np.full((2, len(facets)), -1)
+    number[0, cut[0]] = n + np.arange(len(first))
+    number[1, cut[1]] = n + len(first) + np.arange(len(second))
+    begin = np.where(cut[0], number[0], facets[:, 0])  # of the last piece
+    both = cut.all(axis=0)
+    rows = np.flatnonzero(cut.any(axis=0))
+    out = facets.copy()
+    out[rows, 1] = np.where(cut[0], number[0], number[1])[rows]
+    middle = np.column_stack([number[0], number[1]])[both]
+    last = np.column_stack([np.where(cut[1], number[1], begin), facets[:, 1]])[rows]
+    return np.concatenate([first, second]), np.concatenate([out, middle, last]), rows
 
 
-def _acute_corners(shape: Shape) -> set[int]:
+def _update(there: np.ndarray, points: np.ndarray, facets: np.ndarray, change: Change) -> None:
+    """Which facets are in the strict Gabriel graph after a change: only those next to it can have changed."""
+    touched = np.zeros(len(points), dtype=bool)
+    solid, came = change.gone.min(axis=1) >= 0, change.come.min(axis=1) >= 0
+    touched[change.gone[solid]] = touched[change.come[came]] = True
+    rows = np.flatnonzero(touched[facets].all(axis=1))
+
+    def keys(edges):
+        return np.sort(edges, axis=1) @ (len(points), 1)
+
+    key = keys(facets[rows])
+    lost = np.isin(key, keys(change.gone[solid][:, OPPOSITE[3]].reshape(-1, 2)))
+    there[rows[lost]] = False
+    edge = keys(change.come[came][:, OPPOSITE[3]].reshape(-1, 2))
+    order = np.argsort(edge)
+    at = order[np.searchsorted(edge, key, sorter=order).clip(max=len(edge) - 1)]
+    found = edge[at] == key
+    rows, at = rows[found], at[found]
+    there[rows] = True
+    for apex in (change.come[came].ravel()[at], change.apexes[came].ravel()[at]):
+        some = apex >= 0
+        there[rows[some]] &= in_gabriel_ball(points[facets[rows[some]]], points[apex[some]]) < 0
+
+
+def _no_room(shape: Shape, points: np.ndarray, new: np.ndarray) -> TessellationError:
+    """The error where a new point is one that is there; the reader knows the vertices of the shape only."""
+    _, first, count = np.unique(np.concatenate([new, points]), axis=0, return_index=True, return_counts=True)
+    point = new[first[count > 1].min()]
+    _, (i, j) = cKDTree(shape.points).query(point, k=2)
+    apart = np.linalg.norm(shape.points[i] - shape.points[j])
+    return TessellationError(
+        f"near {near(point[None])}, floats leave no room for another vertex: vertices "
+        f"{min(i, j)} and {max(i, j)} are {apart:.2g} apart there; merge vertices closer than "
+        f"{2 * apart:.1g}, or move the shape nearer to the origin."
+    )
+
+
+def _acute_corners(shape: Shape) -> np.ndarray:
     """Vertices whose two sides enclose less than 90 degrees."""
     before, after = np.empty(len(shape.points), dtype=np.int64), np.empty(len(shape.points), dtype=np.int64)
     before[shape.facets[:, 1]], after[shape.facets[:, 0]] = shape.facets[:, 0], shape.facets[:, 1]
     u, v = shape.points[before] - shape.points, shape.points[after] - shape.points
     # A sign in doubt may go either way: cutting a right angle does no harm and is not needed.
-    return set(np.flatnonzero((u * v).sum(axis=1) > 0).tolist())
+    return np.flatnonzero((u * v).sum(axis=1) > 0)
 
 
-def _cut_corner(corner, points, facets, cuts) -> None:
-    """Cut both sides at ``corner`` at one distance: a third of the way to anything else."""
-    at = (facets == corner).any(axis=1)
-    other = np.where(facets[at, 0] == corner, facets[at, 1], facets[at, 0])
-    lengths = np.linalg.norm(points[other] - points[corner], axis=1)
-    clearance = point_segment_distance(points[corner], points[facets[~at]]).min(initial=np.inf)
-    distance = min(lengths.min(), clearance) / 3
-    for k, end, length in zip(np.flatnonzero(at).tolist(), other.tolist(), lengths.tolist(), strict=True):
-        new = points[corner] + (points[end] - points[corner]) * (distance / length)
-        if k in cuts:  # both ends of this side are acute corners
-            both = np.concatenate([cuts[k], new[None]])
-            along = ((both - points[facets[k, 0]]) ** 2).sum(axis=1)
-            cuts[k] = both[np.argsort(along)]
-        else:
-            cuts[k] = new[None]
+def _distances(corners: np.ndarray, points: np.ndarray, facets: np.ndarray) -> np.ndarray:
+    """How far from each corner both sides are cut: a third of the way to the nearest end or other side."""
+    ends = points[facets]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    reach = np.full(len(points), np.inf)
+    np.minimum.at(reach, facets.ravel(), np.repeat(length, 2))
+    reach, place = reach[corners], points[corners]
+    nearest = reach.copy()
+    boxes = place - reach[:, None], place + reach[:, None], ends.min(axis=1), ends.max(axis=1)
+    for i, j in overlapping_pairs(*boxes):
+        other = (facets[j] != corners[i, None]).all(axis=1)
+        i, j = i[other], j[other]
+        np.minimum.at(nearest, i, point_segment_distance(place[i], ends[j]))
+    return nearest / 3
 
 
 # Samples on the circle count: the strict rule of Theorems 1 and 2.

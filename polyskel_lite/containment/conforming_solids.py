@@ -6,7 +6,7 @@ import numpy as np
 
 from ..checks import near
 from ..errors import ContourContainmentError, ShapeError
-from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
+from ..graphs import Tessellation, facet_rows, gabriel_mask, grown_from
 from ..shapes import Shape, edge_keys, split_edges
 from .surface_edits import flip_toward
 
@@ -54,13 +54,12 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
     """
     points, faces = shape.points, shape.facets
     limit = 2_000 + 4 * len(points) if limit is None else limit
-    given = None
+    given = _Graph(shape.tessellation, to).missing(faces)
+    if not len(given):
+        return shape
+    growing = grown_from(shape.tessellation)
     while True:
-        graph = _Graph(delaunay(points), to)
-        if given is None:
-            given = graph.missing(faces)
-            if not len(given):
-                return shape
+        graph = _Graph(Tessellation(points, *growing.simplices_and_neighbors()), to)
         faces, _ = flip_toward(points, faces, graph.score)
         missing = graph.missing(faces)
         if not len(missing):
@@ -68,6 +67,7 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
         where = near(points[faces[missing[0]]])
         if len(points) < limit:
             points, faces = split_edges(points, faces, _to_halve(graph, points, faces[missing]))
+            growing.add(points[graph.n :])
         if len(points) >= limit or len(points) == graph.n:
             why = f"{limit} vertices" if len(points) >= limit else "edges too short to be halved"
             flat = " or has right angles in a plane" if to == "gabriel" else ""
@@ -79,7 +79,7 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
                 given,
             )
     try:
-        result = Shape(points, faces)
+        result = Shape.refined(faces, graph.tessellation)
     except ShapeError as error:
         raise ContourContainmentError(
             f"{len(given)} of {len(shape.facets)} faces are not in the {to} graph, and rounding spoiled the "

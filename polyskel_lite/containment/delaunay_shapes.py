@@ -9,7 +9,7 @@ import numpy as np
 from ..checks import as_array, as_instance, near
 from ..errors import ContourContainmentError, InputError
 from ..exact import components, orientation
-from ..graphs import Tessellation, delaunay, facet_rows, gabriel_mask
+from ..graphs import Tessellation, facet_rows, gabriel_mask
 from ..shapes import Shape, check_shape
 
 
@@ -88,6 +88,7 @@ class DelaunayShape:
 
         Examples
         --------
+        >>> from polyskel_lite import delaunay
         >>> ears = delaunay([(5, 0), (3, 4), (-3, 4), (-5, 0), (-3, -4), (3, -4)])
         >>> DelaunayShape(ears, np.ones(4, dtype=bool)).betti()
         (1, 0)
@@ -171,7 +172,7 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
     polyskel_lite.errors.ContourContainmentError: 1 of 6 facets (first: 0, vertices 0-1 near (5, 0)) ...
     """
     check_shape(shape)
-    tessellation = delaunay(shape.points, shape.facets)
+    tessellation = shape.tessellation
     rows = facet_rows(tessellation, shape.facets)
     missing = np.flatnonzero(rows < 0)
     if len(missing):

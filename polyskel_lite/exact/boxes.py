@@ -128,3 +128,21 @@ def overlapping_pairs(
         if keep.any():
             yield i[keep], j[keep]
         begin = end
+
+
+def overlaps_of(
+    rows: np.ndarray, low: np.ndarray, high: np.ndarray
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Those of `self_overlaps` in which one of the boxes is among the given rows.
+
+    Examples
+    --------
+    >>> low = np.array([[0.0], [1.0], [2.0]])
+    >>> [(i.tolist(), j.tolist()) for i, j in overlaps_of(np.array([1]), low, low + 1)]
+    [([0, 1], [1, 2])]
+    """
+    rows = np.unique(rows)
+    for i, j in overlapping_pairs(low[rows], high[rows], low, high):
+        i = rows[i]
+        once = (i < j) | ((i > j) & ~np.isin(j, rows))
+        yield np.minimum(i, j)[once], np.maximum(i, j)[once]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .boxes import overlapping_pairs, self_overlaps
+from .boxes import overlapping_pairs, overlaps_of, self_overlaps
 from .predicates import in_gabriel_ball, orientation
 
 
@@ -37,13 +37,17 @@ def segments_meet(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return (sides(a, b) <= 0) & (sides(b, a) <= 0)
 
 
-def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | None:
+def first_meeting(
+    points: np.ndarray, facets: np.ndarray, doubtful: np.ndarray | None = None
+) -> tuple[int, int] | None:
     """The first two segments that meet elsewhere than at a common end, or None.
 
     Parameters
     ----------
     points : (n, 2) float array
     facets : (m, 2) int array
+    doubtful : (k,) int array, optional
+        Only pairs with one of these segments; by default all.
 
     Returns
     -------
@@ -58,8 +62,8 @@ def first_meeting(points: np.ndarray, facets: np.ndarray) -> tuple[int, int] | N
     """
     ends = points[facets]
     low, high = ends.min(axis=1), ends.max(axis=1)
-    flat = np.zeros((len(facets), 1))
-    for i, j in self_overlaps(np.hstack([low, flat]), np.hstack([high, flat])):
+    low, high = (np.hstack([corner, np.zeros((len(facets), 1))]) for corner in (low, high))
+    for i, j in self_overlaps(low, high) if doubtful is None else overlaps_of(doubtful, low, high):
         shared = facets[i][:, :, None] == facets[j][:, None, :]
         apart = ~shared.any(axis=(1, 2))
         bad = np.zeros(len(i), dtype=bool)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .boxes import overlapping_pairs, self_overlaps
+from .boxes import overlapping_pairs, overlaps_of, self_overlaps
 from .predicates import orientation
 from .rational import PLANES
 from .segments import nearest_on_segments, segments_meet
@@ -145,22 +145,15 @@ def meeting_faces(points: np.ndarray, faces: np.ndarray, new: np.ndarray | None 
     """
     corners = points[faces]
     low, high = corners.min(axis=1), corners.max(axis=1)
-    pairs = self_overlaps(low, high) if new is None else _pairs_with(np.unique(new), low, high)
+    pairs = self_overlaps(low, high) if new is None else overlaps_of(new, low, high)
     found = [np.zeros((0, 2), dtype=np.int64)]
     for i, j in pairs:
         for begin in range(0, len(i), _CHUNK):
             a, b = i[begin : begin + _CHUNK], j[begin : begin + _CHUNK]
             bad = _meet(corners[a], corners[b], faces[a][:, :, None] == faces[b][:, None, :])
-            found.append(np.sort(np.stack([a[bad], b[bad]], axis=1), axis=1))
+            found.append(np.stack([a[bad], b[bad]], axis=1))
     pairs = np.concatenate(found)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
-
-
-def _pairs_with(new, low, high):
-    for i, j in overlapping_pairs(low[new], high[new], low, high):
-        i = new[i]
-        once = (i < j) | ((i > j) & ~np.isin(j, new))
-        yield i[once], j[once]
 
 
 def _meet(s: np.ndarray, t: np.ndarray, common: np.ndarray) -> np.ndarray:

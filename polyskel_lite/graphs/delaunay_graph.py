@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..checks import MOST_POINTS, as_indices, as_points
 from ..errors import InputError
+from .growing import Growing
 from .tessellation import Tessellation
 from .triangulation import triangulate
 
@@ -54,7 +55,22 @@ def delaunay(points, facets=None) -> Tessellation:
         raise InputError(f"there are {len(points):,} points, and {MOST_POINTS:,} are too many; thin them.")
     if facets is not None:
         facets = as_indices(facets, "facets", len(points), points.shape[1])
-    return Tessellation(points, *triangulate(points, facets))
+    simplices, neighbors, growing = triangulate(points, facets)
+    tessellation = Tessellation(points, simplices, neighbors)
+    object.__setattr__(tessellation, "_growing", growing)
+    return tessellation
+
+
+def grown_from(tessellation: Tessellation) -> Growing:
+    """The tessellation of the same points as one that can grow: that which made it, the first time it is asked.
+
+    Examples
+    --------
+    >>> len(grown_from(delaunay([(0, 0), (1, 0), (0, 1)])).points)
+    3
+    """
+    growing = tessellation.__dict__.pop("_growing", None)
+    return Growing(tessellation.points) if growing is None else growing
 
 
 def as_tessellation(points_or_tessellation) -> Tessellation:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..checks import check_distinct
@@ -17,20 +19,40 @@ _CHUNK = 20_000
 _used: set[int] = set()  # dimensions whose compiled loops are at hand in this process
 
 
-def compiled_wanted(n: int, dimension: int) -> bool:
-    """Whether n points shall go through compiled loops: there are some at hand, or they pay.
+def compiled_wanted(n: int, dimension: int, hard: bool = False) -> bool:
+    """Whether n points shall go through compiled loops: they are at hand, or pay for compiling.
+
+    Points that are ``hard`` have no other way: for them it is looked whether the loops have been compiled before.
 
     Examples
     --------
-    >>> type(compiled_wanted(10, 2))
-    <class 'bool'>
+    >>> compiled_wanted(10, 2, hard=True) in (False, compiled_wanted(10, 2))
+    True
     """
     constants = {"N": dimension, "M": dimension + 1}
-    if dimension not in _used and n >= LOOK_FROM and loops.can_compile():
-        if n >= COMPILE_FROM or loops.is_cached(**constants):
-            loops.made(True, **constants)
-            _used.add(dimension)
+    asked = dimension not in _used and n >= (LOOK_FROM if hard else COMPILE_FROM) and loops.can_compile()
+    if asked and (n >= COMPILE_FROM or loops.is_cached(**constants)):
+        loops.made(True, **constants)
+        _used.add(dimension)
     return dimension in _used
+
+
+class Change(NamedTuple):
+    """What new points did to a tessellation; -1 is the vertex at infinity.
+
+    Attributes
+    ----------
+    gone : (k, N+1) int array
+        Simplices that were, and facets of the hull with -1.
+    come : (m, N+1) int array
+        Simplices and facets of the hull that are new.
+    apexes : (m, N+1) int array
+        What completes the facet opposite each vertex of these on its other side.
+    """
+
+    gone: np.ndarray
+    come: np.ndarray
+    apexes: np.ndarray
 
 
 class Growing:
@@ -56,7 +78,7 @@ class Growing:
     Examples
     --------
     >>> triangle = Growing(np.array([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)]))
-    >>> triangle.add(np.array([(3.0, 3.0)]))
+    >>> _ = triangle.add(np.array([(3.0, 3.0)]))
     >>> triangle.simplices_and_neighbors()[0].tolist()
     [[0, 1, 2], [1, 3, 2]]
     """
@@ -65,9 +87,9 @@ class Growing:
         n, self.dimension = points.shape
         self.points = points
         order = _local_order(points)
-        self.compiled = (compiled_wanted(n, self.dimension) if compiled is None else compiled) and _exact(
-            points
-        )
+        self.compiled = (
+            compiled_wanted(n, self.dimension, hard=True) if compiled is None else compiled
+        ) and _exact(points)
         self._loops = loops.made(self.compiled, N=self.dimension, M=self.dimension + 1)
         ranks = np.zeros(n, dtype=np.int32) if ranks is None else ranks.astype(np.int32)
         corners = self._loops.corners(*self._numbers(points[order]), n)
@@ -89,24 +111,40 @@ class Growing:
         self._loops.begin(*numbers, self._table, self._across, self._state)
         self._insert(numbers, self.dimension + 1)
 
-    def add(self, points: np.ndarray) -> None:
-        """Insert more points; they are numbered after those that are there.
+    def add(self, points: np.ndarray) -> Change:
+        """Insert more points; they are numbered after those that are there. Returns what changed.
+
+        Raises
+        ------
+        DuplicatePointError
+            If one is there already; then nothing more can be done with this tessellation.
 
         Examples
         --------
         >>> square = Growing(np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]))
-        >>> square.add(np.array([(1.0, 1.0)]))
-        >>> len(square.simplices_and_neighbors()[0])
-        4
+        >>> change = square.add(np.array([(1.0, 1.0)]))
+        >>> len(change.gone), len(change.come)
+        (2, 4)
         """
+        before = self._rows(self._table).copy()
         start = len(self.points)
         self.points = np.concatenate([self.points, points])
         self._order = np.concatenate([self._order, start + _local_order(points)])
         self._ranks = np.concatenate([self._ranks, np.zeros(len(points), dtype=np.int32)])
         if self.compiled and not _exact(self.points):
-            self.__init__(self.points, compiled=False)
-            return
+            self._table, self._across, self._mark, self._free, self._state = (
+                a.tolist() for a in self._arrays()
+            )
+            self.compiled, self._loops = False, loops.made(False, N=self.dimension, M=self.dimension + 1)
         self._insert(self._numbers(self.points[self._order]), start)
+        table, across = self._rows(self._table), self._rows(self._across)
+        changed = np.ones(len(table), dtype=bool)
+        changed[: len(before)] = (table[: len(before)] != before).any(axis=1)
+        gone = before[changed[: len(before)] & (before[:, 0] != DEAD)]
+        come = np.flatnonzero(changed & (table[:, 0] != DEAD))
+        facing = table[across[come]].sum(axis=2) - (table[come].sum(axis=1)[:, None] - table[come])
+        label = np.append(self._order, -1)  # a ghost's vertex stays -1
+        return Change(label[gone], label[table[come]], label[facing])
 
     def simplices_and_neighbors(self) -> tuple[np.ndarray, np.ndarray]:
         """Simplices (t, N+1), positively oriented, and neighbors (t, N+1), in the order of `canonical`.
@@ -116,21 +154,27 @@ class Growing:
         >>> Growing(np.array([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)])).simplices_and_neighbors()[1].tolist()
         [[-1, -1, -1]]
         """
-        size, rows = self.dimension + 1, self._state[ROWS]
-        if self.compiled:
-            n = len(self.points)
-            table = self._table[: size * rows].reshape(rows, size)
-            out = np.empty((2, np.count_nonzero(table.min(axis=1) >= 0), size), dtype=np.int64)
-            labels, begin, number = self._order.astype(np.int32), self._new(n + 1, 0), self._new(rows, 0)
-            self._loops.collect(rows, self._table, self._across, labels, begin, number, *out)
-            return out[0], out[1]
-        table, across = (np.array(a[: size * rows]).reshape(rows, size) for a in (self._table, self._across))
+        table, across = self._rows(self._table), self._rows(self._across)
         solid = table.min(axis=1) >= 0
+        if self.compiled:
+            out = np.empty((2, np.count_nonzero(solid), self.dimension + 1), dtype=np.int64)
+            room = self._new(len(self.points) + 1, 0), self._new(len(table), 0)
+            self._loops.collect(
+                len(table), self._table, self._across, self._order.astype(np.int32), *room, *out
+            )
+            return out[0], out[1]
         number = np.where(solid, np.cumsum(solid) - 1, -1)
         table, across = self._order[table[solid]], number[across[solid]]
-        if size == 4:  # `turn_3d` calls those positive that the library calls negative
+        if self.dimension == 3:  # `turn_3d` calls those positive that the library calls negative
             table, across = table[:, [1, 0, 2, 3]], across[:, [1, 0, 2, 3]]
         return canonical(table, across)
+
+    def _rows(self, flat) -> np.ndarray:
+        rows, size = self._state[ROWS], self.dimension + 1
+        return np.asarray(flat[: rows * size], dtype=np.int32).reshape(rows, size)
+
+    def _arrays(self):
+        return self._table, self._across, self._mark, self._free, self._state
 
     def _new(self, n, fill):
         return np.full(n, fill, dtype=np.int32) if self.compiled else [fill] * n
@@ -149,8 +193,7 @@ class Growing:
         with Progress("Delaunay tessellation", end) as progress:
             while start < end:
                 stop = min(start + (_CHUNK if self.compiled else _CHUNK // 100), end)
-                arrays = self._table, self._across, self._mark, self._free, self._state
-                start = self._loops.insert(*numbers, ranks, start, stop, *arrays)
+                start = self._loops.insert(*numbers, ranks, start, stop, *self._arrays())
                 if self._state[TWICE] >= 0:
                     check_distinct(self.points)
                 if start < stop:

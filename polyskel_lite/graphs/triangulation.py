@@ -12,10 +12,11 @@ from .growing import Growing, canonical, compiled_wanted
 from .tessellation import OPPOSITE
 
 
-def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of points; exact.
+def triangulate(points: np.ndarray, facets: np.ndarray | None = None):
+    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of points, exact; and what can grow, or None.
 
-    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties.
+    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties. The third one
+    is the `Growing` that they were read off, if that was needed; without regard to the facets.
 
     Raises
     ------
@@ -32,12 +33,13 @@ def triangulate(points: np.ndarray, facets: np.ndarray | None = None) -> tuple[n
     n, dimension = points.shape
     if n <= dimension:
         raise TessellationError(f"{n} points in {dimension}D; a tessellation needs at least {dimension + 1}.")
-    found = None if compiled_wanted(n, dimension) else _qhull(points)
+    growing, found = None, None if compiled_wanted(n, dimension) else _qhull(points)
     if found is None:
-        found = Growing(points).simplices_and_neighbors()
+        growing = Growing(points)
+        found = growing.simplices_and_neighbors()
     if facets is not None:
-        return preferring(points, *found, facets)
-    return found
+        found = preferring(points, *found, facets)
+    return *found, growing
 
 
 def preferring(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, facets: np.ndarray):
@@ -46,7 +48,7 @@ def preferring(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray,
     Examples
     --------
     >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    >>> preferring(square, *triangulate(square), np.array([[1, 3]]))[0].tolist()
+    >>> preferring(square, *triangulate(square)[:2], np.array([[1, 3]]))[0].tolist()
     [[0, 1, 3], [1, 2, 3]]
     """
     missing = ~_has(simplices, facets, len(points))

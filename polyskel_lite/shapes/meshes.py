@@ -9,7 +9,7 @@ from ..errors import ShapeError
 from ..exact import as_integers, components, locate_in_mesh, meeting_faces, occurrences, shadow_signs
 
 
-def check_mesh(points: np.ndarray, faces: np.ndarray) -> None:
+def check_mesh(points: np.ndarray, faces: np.ndarray, doubtful=None) -> None:
     """Raise `ShapeError` unless the faces are a closed, manifold, outward mesh that does not meet itself.
 
     Parameters
@@ -17,6 +17,8 @@ def check_mesh(points: np.ndarray, faces: np.ndarray) -> None:
     points : (n, 3) float array
     faces : (m, 3) int array
         Counter-clockwise seen from outside; cavities are surfaces turned the other way.
+    doubtful : callable, optional
+        Without arguments, to the faces (k,) that can meet others, or None for all.
 
     Raises
     ------
@@ -34,7 +36,7 @@ def check_mesh(points: np.ndarray, faces: np.ndarray) -> None:
     _check_faces(points, faces)
     twins = twin_faces(points, faces)
     _check_vertices(points, faces, twins)
-    pairs = meeting_faces(points, faces)
+    pairs = meeting_faces(points, faces, doubtful and doubtful())
     if len(pairs):
         i, j = pairs[0]
         raise ShapeError(

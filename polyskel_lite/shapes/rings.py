@@ -147,7 +147,7 @@ def _listed(rings) -> list:
     return list(rings)
 
 
-def check_meetings(points: np.ndarray, facets: np.ndarray, place=None) -> None:
+def check_meetings(points: np.ndarray, facets: np.ndarray, place=None, doubtful=None) -> None:
     """Raise `ShapeError` naming the first two segments that meet elsewhere than at a common end.
 
     Parameters
@@ -156,12 +156,14 @@ def check_meetings(points: np.ndarray, facets: np.ndarray, place=None) -> None:
     facets : (m, 2) int array
     place : callable, optional
         From a vertex to the name of its ring and its number there, for the message.
+    doubtful : (k,) int array, optional
+        The others are known not to meet each other.
 
     Examples
     --------
     >>> check_meetings(np.eye(2), np.array([[0, 1]]))
     """
-    meeting = first_meeting(points, facets)
+    meeting = first_meeting(points, facets, doubtful)
     if meeting:
         one, two = (_called(k, facets[k], place) for k in meeting)
         raise ShapeError(

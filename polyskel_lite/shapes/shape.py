@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Real
 from os import PathLike
 
 import numpy as np
 
 from ..checks import as_flag, as_indices, as_path, as_points, check_distinct
-from ..errors import InputError, PolyskelError, ShapeError
+from ..errors import InputError, PolyskelError, ShapeError, TessellationError
 from ..exact import locate, locate_in_mesh
 from ..files import read_file, trace, write_surface
+from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
 from .boundary import Boundary, only_in
 from .density import densified
 from .meshes import check_mesh, turned
@@ -103,15 +105,50 @@ class Shape(Boundary):
         object.__setattr__(self, "facets", facets)
         if self.dimension == 3:
             check_distinct(points)
-            check_mesh(points, facets)
+            check_mesh(points, facets, self._doubtful)
         else:
             check_closed(len(points), facets)
             check_distinct(points, place)
-            check_meetings(points, facets, place)
+            check_meetings(points, facets, place, self._doubtful())
             if place is None:  # else the rings were turned as they have to be
                 check_turns(points, facets)
         points.setflags(write=False)
         facets.setflags(write=False)
+
+    def _doubtful(self) -> np.ndarray | None:
+        """Facets that can meet others: Delaunay facets do not. None for all where it is quicker to look."""
+        if "tessellation" not in self.__dict__ and not compiled_wanted(len(self.points), self.dimension):
+            return None
+        try:
+            return np.flatnonzero(facet_rows(self.tessellation, self.facets) < 0)
+        except TessellationError:
+            return None
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """The Delaunay tessellation of the vertices, with boundary facets where ties leave a choice.
+
+        Examples
+        --------
+        >>> Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]]).tessellation.simplices.tolist()
+        [[0, 1, 2], [0, 2, 3]]
+        """
+        return delaunay(self.points, self.facets)
+
+    @classmethod
+    def refined(cls, facets: np.ndarray, tessellation: Tessellation) -> Shape:
+        """A shape whose tessellation is there already, as after `conform`.
+
+        Examples
+        --------
+        >>> triangle = Shape.from_rings([[(0, 0), (2, 0), (0, 2)]])
+        >>> Shape.refined(triangle.facets, triangle.tessellation).area()
+        2.0
+        """
+        shape = object.__new__(cls)
+        shape.__dict__["tessellation"] = tessellation
+        shape._set(tessellation.points, facets)
+        return shape
 
     @classmethod
     def from_rings(cls, rings: Sequence, names: Sequence[str] | None = None) -> Shape:

@@ -28,7 +28,7 @@ from ..exact import (
     point_triangle_distance,
     rational_circumcenter,
 )
-from ..graphs import as_tessellation, delaunay
+from ..graphs import as_tessellation
 from ..shapes import Shape
 from . import inside_plane, inside_space
 from .skeleton import Skeleton
@@ -58,7 +58,7 @@ class VoronoiInside:
     def __init__(self, shape: Shape, E, side: int):
         self.side, self.shape, self.boundary = side, shape, shape.segments
         # Among cocircular samples the diagonals of the boundary: the tessellation of `delaunay_shape`.
-        self.tessellation = delaunay(shape.points, shape.facets) if E is None else as_tessellation(E)
+        self.tessellation = shape.tessellation if E is None else as_tessellation(E)
         n = self.tessellation.dimension
         if n != shape.dimension:
             raise InputError(
