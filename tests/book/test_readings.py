@@ -165,8 +165,36 @@ def letter_a(angle: float) -> psl.Shape:
     return psl.Shape.from_mask(width - distance, 0.0)
 
 
+def worth_of_the_tip(angle: float) -> float:
+    """p/r of the ball that touches both outer sides of an A and its inner corner, over the half width."""
+    alpha, s, c = np.radians(angle), np.sin(np.radians(angle) / 2), np.cos(np.radians(angle) / 2)
+    depth = (1 - s) / (s * (1 + s))  # of its centre, below that of the tip
+    return (np.pi - alpha + 2 * depth * c) / (1 + depth * s)
+
+
 @pytest.mark.parametrize(("angle", "ends"), [(21, 3), (44, 3), (57, 2), (69, 2)])
 def test_a_steep_letter_a_keeps_its_tip(angle, ends):
     """Exercise ex-capitals (a)."""
     h = psl.hierarchy(psl.conform(letter_a(angle)))
     assert {h.branches(share * np.pi).graph["branches"] for share in (0.9, 0.94, 0.98)} == {ends}
+    assert_said("explore", "3 ends if it is steep, 2 if its legs open wide")
+
+
+@pytest.mark.parametrize("angle", [44, 57, 69])
+def test_what_the_tip_of_a_letter_a_is_worth(angle):
+    h = psl.hierarchy(psl.conform(letter_a(angle)))
+    worth = worth_of_the_tip(angle)
+    s, half = np.sin(np.radians(angle) / 2), np.radians(angle) / 2
+    assert worth == pytest.approx((1 + s) / 2 * (np.pi - 2 * half) + (1 - s) / s * np.cos(half))  # as printed
+    counts = [h.branches(share * worth).graph["branches"] for share in (0.97, 1.03)]
+    assert counts == [3, 2]
+
+
+def test_where_the_two_answers_for_a_part():
+    share = {angle: f"${worth_of_the_tip(angle) / np.pi:.2f}\\pi$" for angle in (44, 57)}
+    assert_said(
+        "explore", f"at $44°$ the branch is worth {share[44]} and stays", f"At $57°$ it is worth {share[57]}"
+    )
+    assert worth_of_the_tip(44) > np.pi > worth_of_the_tip(45.5)
+    assert_said("explore", "part at about $45°$, a little more if the threshold is lower")
+    assert worth_of_the_tip(50) > 0.9 * np.pi > worth_of_the_tip(53)

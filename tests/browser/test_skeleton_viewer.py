@@ -32,6 +32,11 @@ AT_REST = """async () => {
         await new Promise((done) => setTimeout(done, 500));
     }
 }"""
+LEAST_ALPHA = """() => {
+    const canvas = document.querySelector(".psl-viewer canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.reduce((least, value, k) => (k % 4 === 3 ? Math.min(least, value) : least), 255);
+}"""
 # The chapters that show a viewer.
 CHAPTERS = [
     name
@@ -147,6 +152,46 @@ def test_the_picture_follows_the_keyboard(visit, folder, name):
     root.locator("[data-control=threshold-number]").press("Enter")
     root.locator("[data-control=reset]").click()
     assert changed(first, pixels(opened.page)) < 5e-3
+    opened.assert_quiet()
+
+
+@pytest.mark.parametrize("strategy", ["surface", "wireframe"])
+def test_a_picture_shows_nothing_of_the_one_before(visit, folder, strategy):
+    small = {"width": 700, "height": 700}  # so that it is drawn at its best on slow machines too
+    opened = visit(folder.as_uri(), "solid.html", viewport=small)
+    root = opened.page.locator(".psl-viewer")
+    root.locator(f"[data-control=strategy][value={strategy}]").check()
+    root.locator("[data-control=vertices]").check()
+    first = pixels(opened.page)
+    for _ in range(3):
+        root.locator("canvas").press("ArrowLeft")
+    assert changed(first, pixels(opened.page)) > 2e-3
+    root.locator("[data-control=reset]").click()
+    np.testing.assert_array_equal(pixels(opened.page), first)
+    assert opened.page.evaluate(LEAST_ALPHA) == 255  # nor of the page beneath
+    opened.assert_quiet()
+
+
+@pytest.mark.parametrize("turns", [[-120] * 3, [60], [-120, -120, 90, -30]])
+def test_the_wheel_keeps_the_place_under_the_pointer(visit, tmp_path, turns):
+    shape = psl.Shape.from_rings([[(0, 0), (4, 0), (0, 3)]])
+    picture = explore.viewer(psl.sk0(shape), shape=shape, alt="A triangle.", edges=False, color="none")
+    picture.save(tmp_path / "triangle.html")
+    opened = visit(tmp_path.as_uri(), "triangle.html")
+    canvas = opened.page.locator(".psl-viewer canvas")
+
+    def corner() -> np.ndarray:
+        """Where the right angle, the lower left corner, stands on the canvas: x and y in pixels."""
+        rows, columns = np.nonzero(pixels(opened.page)[3:-3, 3:-3, :3].min(axis=-1) < 0.98)
+        return np.array([columns.min() + 3, rows.max() + 3])
+
+    before, box = corner(), canvas.bounding_box()
+    opened.page.mouse.click(box["x"] + float(before[0]), box["y"] + float(before[1]))
+    shown = pixels(opened.page)  # after the click: until then the wheel is that of the page
+    for turn in turns:
+        opened.page.mouse.wheel(0, turn)
+    assert changed(shown, pixels(opened.page)) > 1e-3
+    assert np.abs(corner() - before).max() <= 2
     opened.assert_quiet()
 
 

@@ -43,6 +43,20 @@ def good(tmp_path_factory):
     } | {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
+def test_added_samples_are_told():
+    plan = psl.Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    own = explore.explore(plan)
+    added = len(own.chain.refined.points) - len(plan.points)
+    assert added > 50
+    sentence = (
+        f"4 vertices, Betti numbers (1, 0). {added} more make it dense enough and put its boundary into"
+    )
+    assert sentence in own._status.value
+    assert sentence in own.stand_in()
+    fine = explore.explore(psl.datasets.load("gear"))
+    assert "more" not in fine._status.value
+
+
 WHEN = datetime(1997, 9, 1, tzinfo=UTC)
 
 

@@ -277,13 +277,17 @@ def test_camera_fills_the_stage_above_the_scale_of_colours(answer, dimension, as
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_zoom_keeps_the_place_under_the_pointer(answer, dimension):
+@pytest.mark.parametrize("free", [1, 0.9])
+def test_zoom_keeps_the_place_under_the_pointer(answer, dimension, free):
     code = """
-    function answer({ low, high, points }) {
+    function answer({ low, high, points, free }) {
       const camera = new Camera(low.length, low, high, { azim: 30, elev: 20 });
-      const start = all(camera, 1.5, points), [px, py] = start[0];
+      const start = all(camera, 1.5, points, free), [px, py] = start[0];
       camera.scale(1.7, px, py);
-      const near = all(camera, 1.5, points);
+      const near = all(camera, 1.5, points, free);
+      camera.reset();
+      camera.scale(1.7);
+      const middle = all(camera, 1.5, points, free);
       camera.scale(1e9);
       const closest = camera.zoom;
       camera.scale(1e-9);
@@ -291,14 +295,16 @@ def test_zoom_keeps_the_place_under_the_pointer(answer, dimension):
       camera.turn(500, 500);
       const elevation = camera.elevation;
       camera.reset();
-      return { start, near, closest, farthest, elevation, back: all(camera, 1.5, points) };
+      return { start, near, middle, closest, farthest, elevation, back: all(camera, 1.5, points, free) };
     }"""
     points = np.pad(np.random.default_rng(5).random((5, dimension)), [(0, 0), (0, 3 - dimension)])
     box = {"low": [0] * dimension, "high": [1] * dimension}
-    found = answer(CAMERA + code, **box, points=points.ravel().tolist())
-    start, near = np.array(found["start"]), np.array(found["near"])
+    found = answer(CAMERA + code, **box, points=points.ravel().tolist(), free=free)
+    start, near, middle = (np.array(found[name]) for name in ("start", "near", "middle"))
     np.testing.assert_allclose(near[0], start[0], atol=1e-5)
     np.testing.assert_allclose(near - near[0], 1.7 * (start - start[0]), atol=1e-5)
+    still = np.array([0, 1 - free])  # for the buttons: the middle of what is not under the scale of colours
+    np.testing.assert_allclose(middle - still, 1.7 * (start - still), atol=1e-5)
     assert (found["closest"], found["farthest"], found["elevation"]) == (60, 0.3, 89.9)
     assert found["back"] == found["start"]
 

@@ -19,6 +19,7 @@ export class Camera {
     this.radius = Math.hypot(...low.map((l, k) => high[k] - l)) / 2 || 1;
     this.half = low.map((l, k) => (high[k] - l) / 2);
     if (this.flat) { this.center.push(0); this.half.push(0); }
+    this.rise = 0; // how far the middle of the free part of the stage is above that of the stage
     this.reset();
   }
 
@@ -26,13 +27,13 @@ export class Camera {
 
   turn(dx, dy) { this.azimuth -= dx; this.elevation = clamp(this.elevation + dy, -89.9, 89.9); }
 
-  /** Zoom so that the place (px, py), from -1 to 1, stays under the pointer. */
-  scale(factor, px = 0, py = 0) {
+  /** Zoom so that the place (px, py), from -1 to 1, stays under the pointer; without one, the middle of the free part. */
+  scale(factor, px = 0, py = this.rise) {
     const before = this.zoom;
     this.zoom = clamp(this.zoom * factor, 0.3, 60);
     factor = this.zoom / before;
     this.x = px + (this.x - px) * factor;
-    this.y = py + (this.y - py) * factor;
+    this.y = py - this.rise + (this.y - py + this.rise) * factor;
   }
 
   eye(azimuth = this.azimuth, elevation = this.elevation) {
@@ -70,7 +71,8 @@ export class Camera {
   /** `free` is the share of the height that is not under the scale of colours. */
   matrices(aspect, places, free) {
     const eye = this.eye(), lens = this.fit(aspect, places, free), f = lens.f * this.zoom;
-    const x = this.x - lens.x * f, y = this.y + 1 - free - lens.y * f;
+    this.rise = 1 - free;
+    const x = this.x - lens.x * f, y = this.y + this.rise - lens.y * f;
     // Looking along -z: in space w = -z, in the plane w = 1. The pan is a shift of the picture.
     const out = this.flat
       ? [f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, -0.25, 0, x, y, -0.9, 1]

@@ -71,6 +71,10 @@ export class Picture {
       if (shapeCut) this.glass("glass-all", 0, colors.ghost, opacity * 0.35); // the whole shape, a ghost around it
       this.glass("glass", shapeCut, colors.glass, opacity);
     }
+    // Rims of wires and dots have left the picture not quite opaque there: what was on the stage would shine through.
+    gl.colorMask(false, false, false, true);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.colorMask(true, true, true, true);
   }
 
   paint(hex) { return { plain: [...rgb(hex), 1] }; }
