@@ -23,12 +23,14 @@ BELOW_DRAWING = {
     "polyballs",
 }
 BELOW_DRAWING |= {"datasets", "implicit"}
-# Errors and checks are for all.
+FOR_ALL = {"errors", "checks", "progress", "compiling"}
 MAY_IMPORT = {
     "": BELOW_DRAWING | {"pipeline"},
     "pipeline": BELOW_DRAWING,
     "errors": set(),
     "checks": set(),
+    "progress": set(),
+    "compiling": set(),
     "exact": set(),
     "files": set(),
     "graphs": {"exact"},
@@ -55,17 +57,13 @@ OUTSIDE = {
 def broken_rules(texts):
     """One sentence for each import that a rule forbids."""
     for a, b in sorted(HOUSE["arrows"](texts)):
-        if b not in MAY_IMPORT[a] | {"errors", "checks"} or a == "errors":
+        if b not in MAY_IMPORT[a] | FOR_ALL or a == "errors":
             yield f"{a or 'the front door'} may not import {b}"
     if circle := HOUSE["circle"](texts):
         yield f"in a circle: {', '.join(circle)}"
     for i in HOUSE["imports"](texts):
         inner = HOUSE["room"](i.module) == HOUSE["room"](i.target)
-        if (
-            not inner
-            and not i.face
-            and i.target not in ("errors", "checks", "datasets", "implicit", "pipeline")
-        ):
+        if not inner and not i.face and i.target not in FOR_ALL | {"datasets", "implicit", "pipeline"}:
             yield f"{i.module} imports {i.name} from {i.target} and not from the face of the room"
         if i.name.startswith("_"):
             yield f"{i.module} imports {i.name}, which is of {i.target} alone"

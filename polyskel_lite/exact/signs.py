@@ -22,7 +22,7 @@ import math
 
 import numpy as np
 
-from .compiling import Loops
+from ..compiling import Loops
 from .predicates import as_integers
 
 loops = Loops()
@@ -36,8 +36,8 @@ def whole_numbers(points: np.ndarray, compiled: bool):
     Returns
     -------
     list of int, or (18, k) int64 array
-        Plain: the coordinates in a common unit. Compiled: registers for sums and products; the last row has the
-        number of digits in base 2**26, and the exponent of the unit.
+        Plain: the coordinates in a common unit. Compiled: registers for sums and products; the last row has
+        the number of digits in base 2**26, and the exponent of the unit.
 
     Examples
     --------

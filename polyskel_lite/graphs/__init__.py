@@ -1,11 +1,11 @@
 """Delaunay tessellation and Gabriel graph of samples (section 2.2 of the paper).
 
-In the room: `Tessellation`; the loops that insert points into one, exact and with one answer where there are ties;
-the Gabriel graph. The Voronoi graph is the dual, and stands with the skeletons.
+In the room: `Tessellation`; the loops that insert points into one, exact and with one answer where there are
+ties; the Gabriel graph. The Voronoi graph is the dual, and stands with the skeletons.
 """
 
 from .delaunay_graph import as_tessellation, delaunay, grown_from
 from .gabriel_graph import gabriel, gabriel_mask
-from .growing import Change, compiled_wanted
+from .growing import Change, compile_loops, compiled_wanted
 from .tessellation import OPPOSITE, Tessellation, circumballs, facet_rows, ordinary
 from .triangulation import preferring

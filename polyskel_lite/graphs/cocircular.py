@@ -1,8 +1,8 @@
 """Among the tessellations of cocircular or cospherical samples, one that has given facets.
 
-The diagonals of an empty circle's polygon are Delaunay edges as good as each other. A boundary that
-uses one of them is in Del(E), whatever diagonal the rule for ties chose. In space the same holds for flat faces;
-but there a cell is divided as a cone from one of its vertices, so not all diagonals go together.
+The diagonals of an empty circle's polygon are Delaunay edges as good as each other. A boundary that uses one
+of them is in Del(E), whatever diagonal the rule for ties chose. In space the same holds for flat faces; but
+there a cell is divided as a cone from one of its vertices, so not all diagonals go together.
 """
 
 from __future__ import annotations
@@ -91,11 +91,11 @@ def _cut(polygon: list[int], diagonals: list[tuple[int, int]], place) -> list[li
 
 
 def cone_ranks(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """An order of the vertices in which cones have the diagonals of a mesh's flat, cocircular faces, (n,) int.
+    """Ranks (n,) by which cones have the diagonals of the flat, cocircular faces of a mesh.
 
-    Each such polygon must be a fan of triangles from its first vertex. Vertices from which all of their polygons
-    are fans come first; then those for whose other polygons that is true; and so on. Polygons that no vertex
-    suits are left out. Lower is first, 0 is for all others.
+    Each such polygon must be a fan of triangles from its first vertex. Vertices from which all of their
+    polygons are fans come first; then those for whose other polygons that is true; and so on. Polygons that
+    no vertex suits are left out. Lower is first, 0 is for all others.
 
     Examples
     --------

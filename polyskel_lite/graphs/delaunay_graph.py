@@ -17,15 +17,15 @@ def delaunay(points, facets=None) -> Tessellation:
     points : (n, N) array-like, N = 2 or 3
         All different, not all in one line or plane; any unit, any distance from the origin.
     facets : (m, N) array-like of int, optional
-        Boundary facets to prefer among the diagonals of cocircular samples. In 2D a boundary that is in one of
-        the possible tessellations is in this one. In 3D the diagonals of its flat faces are preferred where
-        cones from vertices of cospherical cells give them.
+        Boundary facets to prefer among the diagonals of cocircular samples. In 2D a boundary that is in one
+        of the possible tessellations is in this one. In 3D the diagonals of its flat faces are preferred
+        where cones from vertices of cospherical cells give them.
 
     Returns
     -------
     Tessellation
-        Cocircular or cospherical points get one of their possible tessellations, without flat simplices; which
-        one, depends on the coordinates and facets only, not on the order of the points.
+        Cocircular or cospherical points get one of their possible tessellations, without flat simplices;
+        which one, depends on the coordinates and facets only, not on the order of the points.
 
     Raises
     ------
@@ -36,9 +36,10 @@ def delaunay(points, facets=None) -> Tessellation:
 
     Notes
     -----
-    Points are inserted one by one, every sign exact; see `polyskel_lite.graphs.insertion`. With the extra ``fast``
-    the loops are compiled, from 2,000 points on or where that was done before. Small sets, and all without the
-    extra, go through Qhull first; its answer is taken if it passes an exact check and is the only one.
+    Points are inserted one by one, every sign exact; see `polyskel_lite.graphs.insertion`. With the extra
+    ``fast`` the loops are compiled, from 2,000 points on or where that was done before. Small sets, and all
+    without the extra, go through Qhull first; its answer is taken if it passes an exact check and is the
+    only one.
 
     References
     ----------
@@ -62,7 +63,7 @@ def delaunay(points, facets=None) -> Tessellation:
 
 
 def grown_from(tessellation: Tessellation) -> Growing:
-    """The tessellation of the same points as one that can grow: that which made it, the first time it is asked.
+    """The same as a tessellation that can grow; asked first, it is the one that made this.
 
     Examples
     --------

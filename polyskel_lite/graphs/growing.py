@@ -12,28 +12,44 @@ from ..exact import whole_numbers
 from ..progress import Progress
 from .insertion import DEAD, ROWS, TWICE, loops
 
-#: From so many points on, compiling the loops pays; and from so many on, looking whether that was done before.
+#: From so many points on, compiling pays; from so many on, it pays to look whether that was done before.
 COMPILE_FROM, LOOK_FROM = 2_000, 200
 # Compiled loops insert so many points between two looks at the keyboard.
 _CHUNK = 20_000
 _used: set[int] = set()  # dimensions whose compiled loops are at hand in this process
 
 
+def compile_loops(dimension: int) -> None:
+    """Compile the loops for the plane or for space, or take them from numba's cache; needs numba.
+
+    Examples
+    --------
+    >>> compile_loops(2)
+    >>> compiled_wanted(3, 2)
+    True
+    """
+    loops.made(True, **_constants(dimension))
+    _used.add(dimension)
+
+
+def _constants(dimension):
+    return {"N": dimension, "M": dimension + 1}
+
+
 def compiled_wanted(n: int, dimension: int, hard: bool = False) -> bool:
     """Whether n points shall go through compiled loops: they are at hand, or pay for compiling.
 
-    Points that are ``hard`` have no other way: for them it is looked whether the loops have been compiled before.
+    Points that are ``hard`` have no other way: for them it is looked whether the loops have been compiled
+    before.
 
     Examples
     --------
     >>> compiled_wanted(10, 2, hard=True) in (False, compiled_wanted(10, 2))
     True
     """
-    constants = {"N": dimension, "M": dimension + 1}
     asked = dimension not in _used and n >= (LOOK_FROM if hard else COMPILE_FROM) and loops.can_compile()
-    if asked and (n >= COMPILE_FROM or loops.is_cached(**constants)):
-        loops.made(True, **constants)
-        _used.add(dimension)
+    if asked and (n >= COMPILE_FROM or loops.is_cached(**_constants(dimension))):
+        compile_loops(dimension)
     return dimension in _used
 
 
@@ -64,7 +80,8 @@ class Growing:
     ----------
     points : (n, N) float array
     ranks : (n,) int array, optional
-        Cospherical cells are divided from the vertex of lowest rank, among equals from the first by coordinates.
+        Cospherical cells are divided from the vertex of lowest rank, among equals from the first by
+        coordinates.
     compiled : bool, optional
         Ask for compiled or plain loops; by default `compiled_wanted` decides.
 
@@ -90,7 +107,7 @@ class Growing:
         self.compiled = (
             compiled_wanted(n, self.dimension, hard=True) if compiled is None else compiled
         ) and _exact(points)
-        self._loops = loops.made(self.compiled, N=self.dimension, M=self.dimension + 1)
+        self._loops = loops.made(self.compiled, **_constants(self.dimension))
         ranks = np.zeros(n, dtype=np.int32) if ranks is None else ranks.astype(np.int32)
         corners = self._loops.corners(*self._numbers(points[order]), n)
         if corners[0] < 0:
@@ -135,7 +152,7 @@ class Growing:
             self._table, self._across, self._mark, self._free, self._state = (
                 a.tolist() for a in self._arrays()
             )
-            self.compiled, self._loops = False, loops.made(False, N=self.dimension, M=self.dimension + 1)
+            self.compiled, self._loops = False, loops.made(False, **_constants(self.dimension))
         self._insert(self._numbers(self.points[self._order]), start)
         table, across = self._rows(self._table), self._rows(self._across)
         changed = np.ones(len(table), dtype=bool)

@@ -1,17 +1,18 @@
 """One point after another into a Delaunay tessellation, exact in every case: loops to be compiled or not.
 
-Vertices are numbers of points, simplices rows of N+1 of them, flat in ``T``; ``A`` has the simplex across from
-each vertex. Beyond the hull there are ghosts, with vertex -1 at infinity; rows with `DEAD` are free. All simplices
-that `turn` calls positive; ghosts as if -1 were outside.
+Vertices are numbers of points, simplices rows of N+1 of them, flat in ``T``; ``A`` has the simplex across
+from each vertex. Beyond the hull there are ghosts, with vertex -1 at infinity; rows with `DEAD` are free.
+All simplices that `turn` calls positive; ghosts as if -1 were outside.
 
 Ties. Points on one sphere have several tessellations. All points count as lowered on the paraboloid by next
-to nothing: the first in the order of `before` by most, the second by much less, and so on. Then no tie is left,
-and the result depends on the points alone: each cospherical cell is a cone from its first vertex.
+to nothing: the first in the order of `before` by most, the second by much less, and so on. Then no tie is
+left, and the result depends on the points alone: each cospherical cell is a cone from its first vertex.
 
 References
 ----------
-Bowyer 1981, Watson 1981; ghosts as in Shewchuk, Lecture notes on Delaunay mesh generation, 2012; ties by symbolic
-perturbation as in Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011.
+Bowyer 1981, Watson 1981; ghosts as in Shewchuk, Lecture notes on Delaunay mesh generation, 2012; ties by
+symbolic perturbation as in Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D
+triangulations, 2011.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _SET = f"{_POINTS}, {_WHOLE}, {_INTS}"  # points, whole numbers, ranks
 GHOST, DEAD = -1, -9
 #: The dimension and the corners of a simplex; `Loops.made` sets them.
 N, M = 0, 0
-#: In ``state``: rows used, rows on the free list, where the next walk begins, the last mark, a point met twice.
+#: In ``state``: rows used, free rows, where the next walk begins, the last mark, a point met twice.
 ROWS, FREE, LAST, MARK, TWICE = range(5)
 
 
@@ -59,7 +60,7 @@ def before(P, R, a, b):
 
 @loops(f"int64({_SET}, int64, int64, int64, int64, int64)")
 def untied(P, W, R, a, b, c, d, e):
-    """The in-ball sign of e on the sphere: that of the first vertex whose lowering turns the lifted simplex."""
+    """The in-ball sign of e on the sphere: by the first vertex whose lowering turns the lifted simplex."""
     floor = -2
     while True:
         low = -2
@@ -125,7 +126,7 @@ def collinear(P, W, a, b, c):
 
 @loops(f"UniTuple(int64, 2)({_POINTS}, {_WHOLE}, int64)")
 def corners(P, W, count):
-    """The first points that make a simplex with 0 and 1: one number twice in the plane, -1 if all are flat."""
+    """The first points that make a simplex with 0 and 1: twice one in the plane, -1 if all are flat."""
     i = 2
     while i < count and collinear(P, W, 0, 1, i):
         i += 1

@@ -13,10 +13,10 @@ from .tessellation import OPPOSITE
 
 
 def triangulate(points: np.ndarray, facets: np.ndarray | None = None):
-    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of points, exact; and what can grow, or None.
+    """Simplices (t, N+1), positively oriented, neighbors (t, N+1), and what can grow or None; exact.
 
-    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties. The third one
-    is the `Growing` that they were read off, if that was needed; without regard to the facets.
+    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties. The
+    third one is the `Growing` that they were read off, if that was needed; without regard to the facets.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def _orient(points, simplices, neighbors):
 
 
 def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, unique: bool = False) -> str:
-    """What keeps these simplices from being a (or the only) Delaunay tessellation of the points, or ''; exact.
+    """What keeps these simplices from being a (the only) Delaunay tessellation of the points, or ''; exact.
 
     Examples
     --------

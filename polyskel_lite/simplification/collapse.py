@@ -11,14 +11,35 @@ from heapq import heappop, heappush
 
 import numpy as np
 
+from ..progress import Progress
+
 _RULES = {"branch": 0, "surface": 1, "wireframe": 2}
 _INF = float("inf")
+# Simplices removed between two looks at the keyboard.
+_CHUNK = 500_000
 
 
 def remove_in_order(
-    size, rule, printed, simplices, neighbors, alive, count, share, measure, alpha, radii, level, kind, order
+    size,
+    rule,
+    printed,
+    simplices,
+    neighbors,
+    alive,
+    count,
+    share,
+    measure,
+    alpha,
+    radii,
+    level,
+    kind,
+    order,
+    removed,
+    stop,
 ):
-    """Remove simplices until none can go; fills ``level``, ``kind`` and ``order``.
+    """Remove simplices until none can go, or so many are gone; fills ``level``, ``kind`` and ``order``.
+
+    It may be called again to go on: nothing is removed in another order.
 
     Parameters
     ----------
@@ -43,18 +64,19 @@ def remove_in_order(
     radii : sequence of float
     level, kind, order : sequences
         Results: threshold at which each goes, how, and which one is the first, second, ... to go.
+    removed, stop : int
+        How many are gone, and how many shall be.
 
     Returns
     -------
     int
-        How many were removed.
+        How many are gone; fewer than ``stop`` when no more can go.
     """
     heap = [(0.0, 0.0, 0, 0)]
     heappop(heap)
     todo = [v for v in range(len(alive)) if alive[v]]
-    running = -_INF
-    removed = 0
-    while True:
+    running = level[order[removed - 1]] if removed > 0 else -_INF
+    while removed < stop:
         while len(todo) > 0:
             v = todo.pop()
             c = count[v]
@@ -188,10 +210,12 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     loop = _compiled() if compiled is None or compiled else None
     if loop is None:
         # Python reads lists several times faster than arrays.
-        lists = [array.tolist() for array in arrays]
-        removed = remove_in_order(size, _RULES[rule], printed, *lists)
-        level, kind, order, share = (np.array(lists[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
-    else:
-        removed = loop(size, _RULES[rule], printed, *arrays)
-        level, kind, order, share = (arrays[k] for k in (8, 9, 10, 4))
-    return level, kind, order[:removed], share
+        arrays, loop = [array.tolist() for array in arrays], remove_in_order
+    removed, stop = 0, 0
+    with Progress("hierarchy", t) as progress:
+        while removed == stop and removed < t:
+            stop = min(removed + _CHUNK, t)
+            removed = loop(size, _RULES[rule], printed, *arrays, removed, stop)
+            progress.at(removed)
+    share, level, kind, order = (np.asarray(arrays[k]) for k in (4, 8, 9, 10))
+    return level, kind.astype(np.int8), order[:removed].astype(np.int64), share

@@ -7,7 +7,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import FAMILIES
+from . import FAMILIES, TIMES
 from .running import OUTCOMES, outcome, run_family
 
 COLUMNS = ["family", "count", *OUTCOMES, "seconds", "slowest", "seed", "commit", "date"]
@@ -28,11 +28,12 @@ def main() -> int:
         return 0
     rows = []
     for family in options.families:
-        tally = run_family(family, options.count, options.seed, progress=True)
+        count = options.count * TIMES.get(family, 1)
+        tally = run_family(family, count, options.seed, progress=True)
         for number, what, words in tally.bad:
             print(f"  {family} {number} {what}: {words}", file=sys.stderr)
         rows.append(
-            {"family": family, "count": options.count}
+            {"family": family, "count": count}
             | {name: tally.counts[name] for name in OUTCOMES}
             | {"seconds": round(tally.seconds), "slowest": round(tally.slowest, 1), "seed": options.seed}
             | {"commit": _commit(), "date": time.strftime("%Y-%m-%d")}

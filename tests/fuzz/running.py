@@ -30,7 +30,7 @@ def outcome(family: str, seed: int, number: int) -> tuple[str, str]:
     """What became of one case, and a sentence to find it again."""
     from polyskel_lite import PolyskelError
 
-    run = importlib.import_module(f"{__package__}.{family}").run
+    run = importlib.import_module(__package__).FAMILIES[family]
     case = run(np.random.default_rng([seed, number]))
     words = ""
     try:

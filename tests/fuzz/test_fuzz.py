@@ -13,7 +13,7 @@ import polyskel_lite as psl
 from fuzz import FAMILIES, files, running
 
 # Different ones than `make fuzz` begins with; the slow family has fewer.
-SEED, COUNTS = 20, {"arrays": 1500, "files": 1000, "shapes": 100}
+SEED, COUNTS = 20, {"arrays": 1500, "files": 1000, "shapes": 100, "plane": 150, "space": 100}
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -21,7 +21,9 @@ def test_nothing_is_raw_late_or_wrong(family):
     tally = running.run_family(family, COUNTS[family], SEED)
     assert not tally.bad, "\n".join(f"{family} {k} {what}: {words}" for k, what, words in tally.bad)
     assert tally.counts["answered"] + tally.counts["refused"] == COUNTS[family]
-    assert min(tally.counts["answered"], tally.counts["refused"]) > COUNTS[family] // 20
+    if family not in ("plane", "space"):  # where all points in one line or plane are all that is refused
+        assert tally.counts["refused"] > COUNTS[family] // 20
+    assert tally.counts["answered"] > COUNTS[family] // 20
 
 
 def test_the_same_seed_makes_the_same_cases(monkeypatch, tmp_path):

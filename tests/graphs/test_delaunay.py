@@ -9,7 +9,6 @@ from truth.points import distinct
 
 import polyskel_lite as psl
 from polyskel_lite.exact.predicates import in_ball
-from polyskel_lite.graphs.incremental import incremental_delaunay
 from polyskel_lite.graphs.triangulation import problem
 
 
@@ -31,15 +30,6 @@ def test_every_open_delaunay_ball_is_empty(n, data):
     corners = points[t.simplices]
     volume = np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() / (2 if n == 2 else 6)
     assert volume == pytest.approx(hull.volume)
-
-
-@pytest.mark.parametrize("n", [2, 3])
-@given(data=st.data())
-def test_the_exact_fallback_alone(n, data):
-    points = data.draw(distinct(n, n + 2, 14))
-    simplices, neighbors = incremental_delaunay(points)
-    if len(simplices):
-        assert problem(points, simplices, neighbors) == ""
 
 
 @pytest.mark.parametrize("seed", range(3))

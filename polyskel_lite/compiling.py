@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, cached_property
 from pathlib import Path
 from types import FunctionType, SimpleNamespace
 from zlib import crc32
@@ -15,7 +14,7 @@ class Loops:
     """Functions that run as they are, on lists, or compiled, on arrays: one source, the same results.
 
     Decorate them in the order in which they call each other. Nothing is compiled, and numba is not imported,
-    before `compiled` is asked for; what is compiled stays in numba's cache.
+    before `made` is asked for it; what is compiled stays in numba's cache.
 
     Parameters
     ----------
@@ -26,15 +25,16 @@ class Loops:
     --------
     >>> loops = Loops()
     >>> @loops("int64(int64)")
-    ... def twice(a):
-    ...     return 2 * a
-    >>> twice(4)
+    ... def scaled(a):
+    ...     return FACTOR * a
+    >>> loops.made(False, FACTOR=2).scaled(4)
     8
     """
 
     def __init__(self, base: Loops | None = None):
         self._base = base
-        self._sources: list[tuple[str | None, Callable, str]] = []
+        self._sources: list[tuple[Callable, str, str | None]] = []
+        self._made: dict[tuple, SimpleNamespace] = {}
 
     def __call__(self, signature: str, stands_for: str | None = None) -> Callable:
         """Note a function; ``stands_for`` names the one that it replaces where all are compiled.
@@ -43,10 +43,25 @@ class Loops:
         """
 
         def note(function):
-            self._sources.append((stands_for, function, signature))
+            self._sources.append((function, signature, stands_for))
             return function
 
         return note
+
+    def extended(self) -> Loops:
+        """Loops that call these."""
+        return Loops(self)
+
+    def made(self, compiled: bool, **constants) -> SimpleNamespace:
+        """The functions by name, with these values for globals of their modules; compiled, it needs numba."""
+        key = compiled, *constants.items()
+        if key not in self._made:
+            made = vars(self._base.made(compiled)).copy() if self._base else {}
+            for name, function, signature in self._copies(compiled, constants):
+                function.__globals__.update(made)
+                made[name] = _njit()(signature, **_OPTIONS)(function) if compiled else function
+            self._made[key] = SimpleNamespace(**made)
+        return self._made[key]
 
     @staticmethod
     def can_compile() -> bool:
@@ -56,46 +71,27 @@ class Loops:
         except ImportError:
             return False
 
-    def extended(self) -> Loops:
-        """Loops that call these."""
-        return Loops(self)
-
-    @cache
-    def made(self, compiled: bool, **constants) -> SimpleNamespace:
-        """The functions by name, with these values for globals of their modules; compiled, it needs numba."""
-        made = vars(self._base.made(compiled)).copy() if self._base else {}
-        for name, function in self._copies(compiled, constants):
-            function.__globals__.update(made)
-            made[name] = function
-            if compiled:
-                made[name] = _njit()(function.signature, **_OPTIONS)(function)
-        return SimpleNamespace(**made)
-
     def is_cached(self, **constants) -> bool:
         """Whether the compiled functions are in numba's cache; needs numba."""
-        *_, (_, last) = self._copies(True, constants)
+        _, last, _ = self._copies(True, constants)[-1]
         path = Path(_njit()(**_OPTIONS)(last).stats.cache_path)
         return any(path.glob(f"*{last.__qualname__}*.nbi"))
 
-    def _copies(self, compiled, constants) -> list[tuple[str, FunctionType]]:
-        """New functions, to have other globals; to be compiled, with names that tell all that they call."""
-        stamp = crc32(repr(constants).encode(), self._base._stamp if self._base else 0)
+    def _copies(self, compiled, constants) -> list[tuple[str, FunctionType, str]]:
+        """Names, functions with globals of their own, and signatures."""
+        # numba's cache watches one file only: names that tell the code so far make it watch what is called.
+        called = self._base._sources if self._base else []
+        stamp = crc32(repr([(f.__code__.co_code, f.__code__.co_consts) for f, *_ in called]).encode())
         copies = []
-        for stands_for, function, signature in self._sources:
+        for function, signature, stands_for in self._sources:
+            code = function.__code__
+            stamp = crc32(repr((code.co_code, code.co_consts, constants)).encode(), stamp)
             if compiled or not stands_for:
-                code = function.__code__
-                stamp = crc32(repr((code.co_code, code.co_consts)).encode(), stamp)
+                copy = FunctionType(code, function.__globals__ | constants)
                 name = stands_for or function.__name__
-                copy = FunctionType(code, function.__globals__ | constants, name)
-                # numba's cache watches one file only; the stamp makes it watch the functions that are called.
                 copy.__qualname__, copy.__module__ = f"{name}_{stamp}", function.__module__
-                copy.signature = signature
-                copies.append((name, copy))
+                copies.append((name, copy, signature))
         return copies
-
-    @cached_property
-    def _stamp(self) -> int:
-        return int(self._copies(True, {})[-1][1].__qualname__.rsplit("_", 1)[1])
 
 
 def _njit():
