@@ -102,20 +102,20 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     16
     """
     if spacing is not None:
-        return _refined(points, facets, lambda pieces, count: np.full(len(pieces), spacing), parts=None)
+        return _refined(points, facets, None, lambda _, __: spacing, parts=None)
     boundary = points[facets]
     widths = _widths(boundary, boundary)
     most = MOST + 10 * len(points)
     least = FLOOR[points.shape[1]] * widths.max() if floor is None else floor
 
-    def wanted(pieces, count):
+    def wanted(widths, count):
         nonlocal least, most
         # Needles: the sharper a corner, the more samples for each halving of the width.
         if count > most:
             least, most = 4 * least, most + MOST
-        return SHARE * np.maximum(_widths(boundary, pieces).min(axis=1), least)
+        return SHARE * np.maximum(widths, least)
 
-    points, facets = _refined(points, facets, wanted, parts=2)
+    points, facets = _refined(points, facets, boundary, wanted, parts=2)
     # What is narrow between the places is shown by the balls of the samples.
     while points.shape[1] == 2 and len(coarse := _coarse(boundary, points, facets, least)):
         points, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
@@ -131,21 +131,28 @@ def _widths(boundary, pieces) -> np.ndarray:
     return local_width(boundary, places.reshape(len(normals), -1), normals).reshape(len(pieces), -1)
 
 
-def _refined(points, facets, wanted, parts):
+def _refined(points, facets, boundary, wanted, parts):
     """Cut facets longer than wanted, into `parts` or as many as that takes, until none is."""
-    fresh = np.arange(len(facets))
+    fresh, widths = np.arange(len(facets)), np.full(len(facets), np.nan)
     while len(fresh):
+        new = fresh[np.isnan(widths[fresh])]
+        if boundary is not None:
+            widths[new] = _widths(boundary, points[facets[new]]).min(axis=1)
         pieces = points[facets[fresh]]
         sides = np.linalg.norm(np.roll(pieces, -1, axis=1) - pieces, axis=2)
-        times = sides.max(axis=1) / wanted(pieces, len(points))
+        times = sides.max(axis=1) / wanted(widths[fresh], len(points))
         rows = times > 1 + 1e-9
         coarse, times, sides = fresh[rows], times[rows], sides[rows]
         if points.shape[1] == 3:
+            before = facets
             points, facets, fresh = _cut_triangles(points, facets, coarse, sides.argmax(axis=1))
+            widths[(facets[: len(before)] != before).any(axis=1)] = np.nan
         elif parts:
             points, facets, fresh = _cut_segments(points, facets, coarse, np.full(len(coarse), parts))
+            widths[:] = np.nan
         else:
             return _cut_segments(points, facets, coarse, np.ceil(times - 1e-9).astype(int))[:2]
+        widths = np.append(widths, np.full(len(facets) - len(widths), np.nan))
     return points, facets
 
 
