@@ -19,7 +19,7 @@ from ..errors import TessellationError
 from ..exact import Polygons, components, edge_rings, unique_rows
 from ..skeletons import Skeleton
 from .incidence import Incidence, gather
-from .pairs import lengths, units
+from .pairs import found_at, lengths, units
 from .power import PowerTriangulation, regular_triangulation
 from .union import BallUnion
 
@@ -266,7 +266,7 @@ def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
     through, ball = on.common(generators)
     through, ball = through[exposed[ball]], ball[exposed[ball]]
     rows = np.column_stack([np.append(face[vertex >= 0], through), np.append(vertex[vertex >= 0], ball)])
-    rows, _ = unique_rows(rows, max(len(generators), on.count, int(label.max()) + 1))
+    rows, _ = unique_rows(rows, max(len(generators), len(exposed), int(label.max()) + 1))
     return _Faces(generators, rows[:, 0], rows[:, 1])
 
 
@@ -298,14 +298,11 @@ def _ring_places(t, label, faces: _Faces) -> np.ndarray:
     vertex = label[owner]
     outside = np.zeros(len(edges), dtype=bool)
     outside[edge[vertex < 0]] = True
-    rows = np.lexsort((position, vertex, edge))
+    rows = np.argsort(position)
     rows = rows[vertex[rows] >= 0]
     bound = 1 + max(label.max(), faces.vertex.max(initial=0))
-    key, first = np.unique(edge[rows] * bound + vertex[rows], return_index=True)
-    key, first = np.append(key, -1), np.append(rows[first], 0)
-    wanted = faces.face * bound + faces.vertex
-    at = np.searchsorted(key[:-1], wanted)
-    place = np.where(key[at] == wanted, position[first[at]], -1)
+    at = found_at(edge[rows] * bound + vertex[rows], faces.face * bound + faces.vertex)
+    place = np.append(position[rows], -1)[at]
     # A centre of a ball that is no vertex of the ring is where the face was cut.
     outside[faces.face[place < 0]] = True
     return np.where(outside[faces.face], -1, place)

@@ -16,12 +16,13 @@ from .discs import Arcs, Covers, ends_of, uncovered
 from .incidence import contacts, merged
 from .pairs import (
     PRECISION,
+    balls_near,
     crossings,
+    found_at,
     frames,
     in_any,
     lengths,
     meeting_graph,
-    octaves,
     relations,
     rounding,
 )
@@ -143,7 +144,11 @@ def _covered(points, centers, radii) -> np.ndarray:
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
     """The part of each circle in each ball in a triple with the pair; which circles are all covered."""
-    row, k = _third_balls(power, circles.pairs, len(radii))
+    triples, count = power.faces(3), len(radii)
+    # Each triple with each of its pairs: the row of the circle, if there is one, and the third ball.
+    sides = np.concatenate([triples[:, (0, 1)], triples[:, (0, 2)], triples[:, (1, 2)]])
+    row = found_at(circles.pairs @ (count, 1), sides @ (count, 1))
+    row, k = row[row >= 0], triples.T[::-1].ravel()[row >= 0]
     i, j = circles.pairs[row].T
     to = centers[k] - circles.centers[row]
     x, y, z = (np.einsum("mi,mi->m", to, circles.frames[row, c]) for c in range(3))
@@ -171,23 +176,6 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     sine = np.sqrt(above * below)
     shift = np.minimum(np.divide(error, sine, out=np.full_like(sine, np.inf), where=sine > 0), _WORST)
     return Covers.about(row, x, y, above, below, shift), covered
-
-
-def _third_balls(power, pairs, count) -> tuple[np.ndarray, np.ndarray]:
-    """For each pair (a row) all balls in a triple with it."""
-    triples = power.faces(3)
-    if not len(triples) or not len(pairs):
-        return np.zeros((2, 0), dtype=np.int64)
-    key = pairs[:, 0] * count + pairs[:, 1]
-    order = np.argsort(key)
-    rows, others = [], []
-    for a, b, c in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
-        wanted = triples[:, a] * count + triples[:, b]
-        at = np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)
-        found = key[order[at]] == wanted
-        rows.append(order[at[found]])
-        others.append(triples[found, c])
-    return np.concatenate(rows), np.concatenate(others)
 
 
 def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, SphereBoundary]:
@@ -255,15 +243,12 @@ def _all_around(balls, graph) -> tuple[np.ndarray, np.ndarray] | None:
 
 def _deepest(places, centers, radii) -> tuple[np.ndarray, np.ndarray]:
     """The places that are inside a ball, beyond rounding, and the ball in which each is deepest."""
+    point, near, away = balls_near(places, centers, radii)
+    inside = 1 - away / radii[near]
+    # Of several the last one stays, which is the deepest.
+    order = np.argsort(inside)
+    order = order[inside[order] > 0]
     depth, ball = np.zeros(len(places)), np.full(len(places), -1)
-    tree = cKDTree(places)
-    for group in octaves(radii):
-        near = cKDTree(centers[group]).sparse_distance_matrix(tree, radii[group].max(), output_type="ndarray")
-        inside = 1 - near["v"] / radii[group[near["i"]]]
-        order = np.argsort(inside)
-        at, inside, candidate = near["j"][order], inside[order], group[near["i"]][order]
-        better = inside > depth[at]
-        # Of several the last one stays, which is the deepest.
-        depth[at[better]], ball[at[better]] = inside[better], candidate[better]
+    depth[point[order]], ball[point[order]] = inside[order], near[order]
     deep = np.flatnonzero(depth > _DEEP)
     return deep, ball[deep]

@@ -171,8 +171,7 @@ class BallUnion:
             return pairs[np.isin(np.arange(len(pairs)), arcs.ball[arcs.whole])] if bare else pairs
         if not len(corners):
             return np.zeros((0, 2), dtype=np.int64)
-        pairs = Incidence(corners, self.centers, self.radii, self.origin).pairs()
-        pairs, times = np.unique(pairs, axis=0, return_counts=True)
+        pairs, times = Incidence(corners, self.centers, self.radii, self.origin).pairs()
         return pairs[times >= 2] if bare else pairs
 
     def as_given(self, pairs: np.ndarray) -> np.ndarray:
