@@ -114,10 +114,8 @@ def lonely(centers, radii) -> np.ndarray:
     [2]
     """
     i, j = meeting_pairs(centers, radii)
-    apart = gaps(centers, radii, i, j) > rounding(centers, radii, i, j)
-    met = np.zeros(len(radii), dtype=bool)
-    met[i[~apart]] = met[j[~apart]] = True
-    return np.flatnonzero(~met)
+    met = gaps(centers, radii, i, j) <= rounding(centers, radii, i, j)
+    return np.setdiff1d(np.arange(len(radii)), [i[met], j[met]])
 
 
 def isolated_lenses(centers, radii, pairs) -> np.ndarray:

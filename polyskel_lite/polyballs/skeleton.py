@@ -86,22 +86,19 @@ def ball_skeleton(union: BallUnion, alone, bridges) -> Skeleton:
         t = _triangulate(corners)
         label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, sizes)
         lines = _faces(t, label, on, union.exposed, len(union.origin))
-        edges.append(_chains(lines, vertices))
+        edges.append(_chains(lines.face, lines.vertex, vertices))
         if union.in_space:
             sheets = _faces(t, label, on, union.exposed, 2)
             polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
             edges += [flat, polygons.sides()]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
-    used = np.zeros(len(vertices), dtype=bool)
-    used[: len(alone)] = alone
-    used[edges] = True
-    number = np.cumsum(used) - 1
+    used = np.union1d(np.flatnonzero(alone), edges)
     return Skeleton(
         vertices=vertices[used] + union.origin,
         radii=sizes[used],
-        simplices=np.full(int(used.sum()), -1),
-        edges=number[edges],
-        polygons=Polygons(number[polygons.corners], polygons.sizes),
+        simplices=np.full(len(used), -1),
+        edges=np.searchsorted(used, edges),
+        polygons=Polygons(np.searchsorted(used, polygons.corners), polygons.sizes),
     )
 
 
@@ -201,10 +198,9 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
     rest, place, size = rest[kept], place[kept], size[kept]
     number = np.full(len(t.simplices), -1)
     number[rest] = np.arange(len(rest))
-    pairs = np.column_stack(
-        [np.repeat(np.arange(len(rest)), t.simplices.shape[1]), number[t.neighbors[rest]].ravel()]
-    )
-    pairs = pairs[pairs[:, 1] >= 0]
+    beside = number[t.neighbors[rest]]
+    row, side = np.nonzero(beside >= 0)
+    pairs = np.column_stack([row, beside[row, side]])
     twins = pairs[lengths(place[pairs[:, 0]] - place[pairs[:, 1]]) <= _SAME * size[pairs].min(axis=1)]
     count, group = components(len(rest), twins)
     representative = np.zeros(count, dtype=np.int64)
@@ -230,20 +226,17 @@ def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
     a positive combination of the directions from p to the centres of its balls. All corners of the simplex
     agree on that; the one that is clearest decides.
     """
-    m, n = place.shape
-    own = on.balls_of_each(n)
-    inside, clearest = np.zeros(m, dtype=bool), np.zeros(m)
-    for p in simplices.T:
-        towards = units(centers[own[p]] - corners[p][:, None])
-        offset = place - corners[p]
-        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
-        towards[~clear] = np.eye(n)
-        share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
-        margin = np.where(clear, share / lengths(offset), 0)
-        better = np.abs(margin) > clearest
-        inside[better], clearest[better] = margin[better] > -_CONE, np.abs(margin[better])
+    own = on.balls_of_each(place.shape[1])[simplices]
+    towards = units(centers[own] - corners[simplices][:, :, None])
+    offset = place[:, None] - corners[simplices]
+    clear = (own[..., 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
+    towards[~clear] = np.eye(place.shape[1])
+    share = np.linalg.solve(towards.swapaxes(2, 3), offset[..., None])[..., 0].min(axis=2)
+    margin = np.where(clear, share / lengths(offset), 0)
+    clearest = margin[np.arange(len(margin)), np.abs(margin).argmax(axis=1)]
+    inside = clearest > -_CONE
     # Where more than N balls meet in every corner, look for the combination itself.
-    for row in np.flatnonzero(clearest < _FLAT):
+    for row in np.flatnonzero(np.abs(clearest) < _FLAT):
         inside[row] = all(
             _in_cone(place[row] - corners[p], centers[on.balls(p)] - corners[p]) for p in simplices[row]
         )
@@ -270,11 +263,8 @@ def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
     return _Faces(generators, rows[:, 0], rows[:, 1])
 
 
-def _chains(faces: _Faces, vertices) -> np.ndarray:
+def _chains(face, vertex, vertices) -> np.ndarray:
     """Edges between consecutive vertices of faces that are parts of lines, (e, 2)."""
-    face, vertex = faces.face, faces.vertex
-    if not len(face):
-        return np.zeros((0, 2), dtype=np.int64)
     offset, direction, _ = _about_middle(face, vertices[vertex])
     along = np.einsum("mi,mi->m", offset, direction)
     order = np.lexsort((along, face))
@@ -311,8 +301,6 @@ def _ring_places(t, label, faces: _Faces) -> np.ndarray:
 def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.ndarray]:
     """The convex polygons with three corners or more, in order, and the edges of those that are flat."""
     face, vertex = faces.face, faces.vertex
-    if not len(face):
-        return Polygons(), np.zeros((0, 2), dtype=np.int64)
     offset, x, size = _about_middle(face, vertices[vertex])
     first = np.cumsum(size) - size
     normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
@@ -321,10 +309,10 @@ def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.nda
     extent = np.maximum.reduceat(np.abs(along), first)
     wide = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
     solid = np.where(place >= 0, np.repeat(size >= 3, size), wide)
-    line = _Faces(faces.generators, face[~solid], vertex[~solid])
     # Faces that are in as a whole keep the order of their ring, which no rounding can change. For the others:
     # the middle of a convex polygon is inside it, so its corners are in order as seen from there.
     turn = np.where(place >= 0, place, np.arctan2(across, along))
-    order = np.lexsort((turn[solid], face[solid]))
-    ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
-    return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)
+    rows = np.flatnonzero(solid)
+    rows = rows[np.lexsort((turn[rows], face[rows]))]
+    polygons = Polygons(vertex[rows], np.unique(face[rows], return_counts=True)[1])
+    return polygons, _chains(face[~solid], vertex[~solid], vertices)

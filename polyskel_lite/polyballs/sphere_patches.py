@@ -19,7 +19,7 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ..checks import as_number
 from ..errors import InputError
 from ..exact import components
-from .pairs import spread_out, units
+from .pairs import found_at, spread_out, units
 from .spheres import SphereBoundary
 from .union import BallUnion, Caps
 
@@ -225,15 +225,13 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     count = len(hulls.names)
     a, b = hulls.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).T
     triangle = np.arange(len(a)) // 3
-    key, twin = a * count + b, b * count + a
-    order = np.argsort(key)
-    at = np.minimum(np.searchsorted(key, twin, sorter=order), len(key) - 1)
-    paired = key[order[at]] == twin
-    doubled = np.append(False, np.diff(key[order]) == 0)
-    rim = hulls.rims[:, 0] * count + hulls.rims[:, 1]
+    key, twin, rim = a * count + b, b * count + a, hulls.rims @ (count, 1)
+    at = found_at(key, twin)
+    # Not so where an edge has no twin, or where it is there twice.
+    paired = (at >= 0) & (at[at] == np.arange(len(at)))
     left, right = np.isin(key, rim), np.isin(twin, rim)
     through = paired & ~left & ~right
-    links = np.column_stack([triangle[through], triangle[order[at[through]]]])
+    links = np.column_stack([triangle, triangle[at]])[through]
     number, region = components(len(hulls.triangles), links)
     inside, outside = np.zeros((2, number), dtype=bool)
     inside[region[triangle[left]]] = True
@@ -241,7 +239,7 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     lost = ~np.isin(rim, key)
     whole = ~np.isin(hulls.ball, hulls.rim_ball)
     unclear = (inside == outside)[region] & ~whole
-    doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired], triangle[order[doubled]]])
+    doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired]])
     return inside[region] | whole, np.union1d(hulls.rim_ball[lost], hulls.ball[doubtful])
 
 

@@ -131,15 +131,11 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     exposed[crossing[keep]] = True
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
-    whole[whole] = ~_covered(centers[whole] + radii[whole, None] * _POLE, centers, radii)
+    poles = centers[whole] + radii[whole, None] * _POLE
+    whole[whole] = ~in_any(poles, centers, radii * (1 - _INSIDE))
     circles = Circles(*(values[keep] for values in circles))
     touching, _ = contacts(centers, radii, touching)
     return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
-
-
-def _covered(points, centers, radii) -> np.ndarray:
-    """Which points lie in a ball, beyond rounding, (m,) bool array."""
-    return in_any(points, centers, radii * (1 - _INSIDE))
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
@@ -158,8 +154,8 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     believed = PRECISION * (radii[i] + radii[j] + radii[k]) + rounding(centers, radii, i, j)
     believed += rounding(centers, radii, k, k)
     d = lengths(centers[j] - centers[i])
-    along = np.abs(np.einsum("mi,mi->m", centers[k] - centers[i], circles.frames[row, 2]))
-    along = np.minimum(along, np.abs(np.einsum("mi,mi->m", centers[k] - centers[j], circles.frames[row, 2])))
+    axis = circles.frames[row, 2]
+    along = np.minimum(*(np.abs(np.einsum("mi,mi->m", centers[k] - centers[e], axis)) for e in (i, j)))
     # Where the two spheres nearly coincide, rounding moves their circle: along its axis by (error) r / d, and
     # it tilts the axis by (error) / d.
     error = along * (radii[i] + radii[j]) + (across + h + np.abs(z)) * (radii[i] + radii[j])

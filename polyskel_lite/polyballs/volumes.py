@@ -181,20 +181,18 @@ def _arcs(covered: Caps) -> Arcs:
 def _free_share(covered: Caps) -> np.ndarray:
     """The share of the poles of each sphere that is in no cap, (k,)."""
     inside = covered.axes @ _POLES.T > covered.heights[:, None]
-    cut = np.flatnonzero(np.diff(covered.first))
-    hidden = np.zeros((len(covered.first) - 1, len(_POLES)), dtype=bool)
-    if len(cut):
-        hidden[cut] = np.logical_or.reduceat(inside, covered.first[cut])
+    degree = np.diff(covered.first)
+    hidden = np.zeros((len(degree), len(_POLES)), dtype=bool)
+    hidden[degree > 0] = np.logical_or.reduceat(inside, covered.first[:-1][degree > 0])
     return 1 - hidden.mean(axis=1)
 
 
 def _far_poles(ball, places, count) -> np.ndarray:
     """For each ball the pole whose opposite point is farthest from all ends of arcs."""
     chosen = np.zeros(count, dtype=np.int64)
-    if len(ball):
-        first = np.flatnonzero(np.diff(ball, prepend=-1))
-        away = np.min([(1 + ends @ _POLES.T) for ends in places], axis=0)
-        chosen[ball[first]] = np.minimum.reduceat(away, first).argmax(axis=1)
+    first = np.flatnonzero(np.diff(ball, prepend=-1))
+    away = np.min([(1 + ends @ _POLES.T) for ends in places], axis=0)
+    chosen[ball[first]] = np.minimum.reduceat(away, first).argmax(axis=1)
     return chosen
 
 
