@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
 
 # A ball that sticks out of another one by less than this share of its radius is taken as part of
 # it: below, the crossings of the two spheres could be anywhere (error about 1e-16 / share).
@@ -201,9 +202,7 @@ def in_any(points, centers, radii) -> np.ndarray:
     step = max(1, _CHUNK // max(1, len(points)))
     for first in range(0, len(order), step):
         balls, left = order[first : first + step], np.flatnonzero(~inside)
-        square = sum(
-            np.square(points[left, None, axis] - centers[balls, axis]) for axis in range(points.shape[1])
-        )
+        square = cdist(points[left], centers[balls], "sqeuclidean")
         inside[left] = (square <= np.square(radii[balls])).any(axis=1)
     return inside
 

@@ -19,8 +19,8 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ..checks import as_number
 from ..errors import InputError
 from ..exact import components
+from .discs import Boundary
 from .pairs import found_at, spread_out, units
-from .spheres import SphereBoundary
 from .union import BallUnion, Caps
 
 #: Triangles on all spheres together: one million take ten seconds, and no screen shows more.
@@ -92,26 +92,18 @@ def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.nd
             f"pass {fineness * np.sqrt(count / MOST_TRIANGLES):.2g} or more."
         )
     parts = parts.astype(np.int64)
-    rims = _rims(union.boundary, radii * _EDGE / parts)
-    hulls = _hulls(union, parts, rims)
+    shared, rims = _rims(union.boundary, radii * _EDGE / parts)
+    hulls = _hulls(union, parts, shared, rims)
     kept, broken = _patch_side(hulls)
     ball = hulls.ball[kept]
     triangles = hulls.names[hulls.triangles[kept]]
     if len(broken):
         whole = ~np.isin(ball, broken)
-        fans = [_fan(rims.edges[rims.first[b] : rims.first[b + 1]]) for b in broken]
+        fans = [_fan(rims[b]) for b in broken]
         triangles = np.concatenate([triangles[whole], *fans])
         ball = np.concatenate([ball[whole], np.repeat(broken, [len(fan) for fan in fans])])
     used, triangles = np.unique(triangles, return_inverse=True)
     return hulls.vertices[used], triangles.reshape(-1, 3), ball
-
-
-class _Rims(NamedTuple):
-    """Polygons along the exposed arcs: of ball i rows first[i] to first[i + 1], its patch on their left."""
-
-    vertices: np.ndarray
-    edges: np.ndarray
-    first: np.ndarray
 
 
 class _Hulls(NamedTuple):
@@ -128,11 +120,13 @@ class _Hulls(NamedTuple):
     rim_ball: np.ndarray
 
 
-def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
-    """Cut all exposed arcs into edges not longer than those of the finer one of both spheres."""
+def _rims(boundary: Boundary, edge: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Cut all exposed arcs into edges not longer than those of the finer one of both spheres.
+
+    The vertices, and for each ball its edges: polygons along its arcs, with its patch on their left.
+    """
     row, start, end = boundary.arcs
     circles, corners = boundary.circles, boundary.corners
-    count = len(edge)
     whole = boundary.arcs.whole
     ends = np.zeros((2, len(row)), dtype=np.int64)
     if len(corners):
@@ -157,20 +151,20 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     ball = np.concatenate([i, j])
     edges = np.concatenate([np.stack([after, begin], axis=1), np.stack([begin, after], axis=1)])
     order = np.argsort(ball, kind="stable")
-    return _Rims(vertices, edges[order], np.searchsorted(ball[order], np.arange(count + 1)))
+    return vertices, np.split(edges[order], np.searchsorted(ball[order], np.arange(1, len(edge))))
 
 
-def _hulls(union: BallUnion, parts, rims: _Rims) -> _Hulls:
+def _hulls(union: BallUnion, parts, on_arcs, rims) -> _Hulls:
     """Triangulate each sphere with its arcs' vertices and the vertices of an icosphere between them."""
     centers, radii, balls, covered = union.centers, union.radii, np.flatnonzero(union.exposed), union.caps
-    vertices, names, triangles, edges = [rims.vertices], [], [], []
-    number, copies = len(rims.vertices), 0
+    vertices, names, triangles, edges = [on_arcs], [], [], []
+    number, copies = len(on_arcs), 0
     for ball in balls:
-        rim = rims.edges[rims.first[ball] : rims.first[ball + 1]]
+        rim = rims[ball]
         if len(rim):
             shared, rim = np.unique(rim, return_inverse=True)
             rim = rim.reshape(-1, 2)
-            places = (rims.vertices[shared] - centers[ball]) / radii[ball]
+            places = (on_arcs[shared] - centers[ball]) / radii[ball]
             inner = _inner(covered, ball, parts[ball], places[rim])
             found = _hull(np.concatenate([places, inner]))
         else:

@@ -6,13 +6,11 @@ looked at. On each circle the covered parts are intervals of angles, put togethe
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..exact import occurrences, unique_rows
-from .discs import Arcs, Covers, ends_of, uncovered
+from .discs import Arcs, Boundary, Circles, Covers, ends_of, uncovered
 from .incidence import contacts, merged
 from .pairs import (
     PRECISION,
@@ -39,67 +37,7 @@ _ROUNDS = 6
 _TRIPLES = 4_000_000  # rows of the table of triples: above, memory and patience end
 
 
-class Circles(NamedTuple):
-    """Circles in which two spheres cross.
-
-    Attributes
-    ----------
-    pairs : (m, 2) int array
-        The two balls, i < j.
-    centers : (m, 3) float array
-    radii : (m,) float array
-    frames : (m, 3, 3) float array
-        Rows: two unit vectors in the plane of the circle, from which angles count, and its axis from i to j.
-    """
-
-    pairs: np.ndarray
-    centers: np.ndarray
-    radii: np.ndarray
-    frames: np.ndarray
-
-    def points(self, circle: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        """Points at given angles on given circles, (m, 3).
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> unit = Circles(np.array([[0, 1]]), np.zeros((1, 3)), np.ones(1), np.eye(3)[None])
-        >>> unit.points(np.array([0]), np.array([np.pi])).round(3).tolist()
-        [[-1.0, 0.0, 0.0]]
-        """
-        x, y = self.frames[circle, 0], self.frames[circle, 1]
-        swing = np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y
-        return self.centers[circle] + self.radii[circle, None] * swing
-
-
-class SphereBoundary(NamedTuple):
-    """What `sphere_boundary` returns.
-
-    Attributes
-    ----------
-    exposed : (k,) bool array
-        Balls with a patch of their sphere on the boundary.
-    circles : Circles
-        Those with an arc on the boundary.
-    arcs : Arcs
-        Their exposed arcs; ``ball`` is the row of the circle.
-    corners : (s, 3) float array
-        The singular points: ends of arcs.
-    touching : (q, 2) int array
-        Balls that touch from outside in a point of the boundary.
-    sound : bool
-        Whether the arcs close up; not so where too many balls nearly coincide for floating-point numbers.
-    """
-
-    exposed: np.ndarray
-    circles: Circles
-    arcs: Arcs
-    corners: np.ndarray
-    touching: np.ndarray
-    sound: bool = True
-
-
-def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> SphereBoundary:
+def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> Boundary:
     """Find the circles, arcs and singular points of the boundary of a union of balls in space.
 
     Parameters
@@ -124,7 +62,7 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     circles = Circles(crossing, middle, radius, frames(axis))
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
-    corners = merged(*ends_of(arcs, errors, circles.radii, circles.points))
+    corners = merged(*ends_of(arcs, errors, circles))
     keep, row = np.unique(arcs.ball, return_inverse=True)
     crossed, exposed = np.zeros((2, len(radii)), dtype=bool)
     crossed[crossing] = True
@@ -135,7 +73,7 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     whole[whole] = ~in_any(poles, centers, radii * (1 - _INSIDE))
     circles = Circles(*(values[keep] for values in circles))
     touching, _ = contacts(centers, radii, touching)
-    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
+    return Boundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
@@ -174,7 +112,7 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     return Covers.about(row, x, y, above, below, shift), covered
 
 
-def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, SphereBoundary]:
+def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, Boundary]:
     """The same as `sphere_boundary` after a check of every arc, and the triangulation that it took.
 
     Where many balls pass through one point and nearly coincide, Qhull can lose some of them; then arcs are
@@ -212,7 +150,7 @@ def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerT
     return power, found._replace(sound=False)
 
 
-def _closes(found: SphereBoundary, starts, ends) -> bool:
+def _closes(found: Boundary, starts, ends) -> bool:
     """Whether every end of an arc is at a singular point where another one ends."""
     part = ~found.arcs.whole
     ends = np.concatenate([starts[part], ends[part]])

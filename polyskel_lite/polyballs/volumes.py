@@ -111,7 +111,7 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     count = len(union.radii)
     covered = union.caps
     row, start, end = _arcs(covered)
-    ball = _balls(covered)[row]
+    ball = covered.ball[row]
     x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
     h = covered.heights[row]
     s = np.sqrt(np.maximum(1 - h**2, 0))
@@ -140,20 +140,14 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     return share * union.radii**2, normals * (union.radii**2 / 2)[:, None]
 
 
-def _balls(covered: Caps) -> np.ndarray:
-    """The sphere of each cap."""
-    return spread_out(np.diff(covered.first))[0]
-
-
 def _arcs(covered: Caps) -> Arcs:
     """The arcs of the edge of each cap that no other cap of its sphere covers.
 
     Every sphere decides for itself, from its own caps. So the arcs around a patch follow each other, and
     neither spheres that nearly coincide nor many that pass through one point tear them apart.
     """
-    degree = np.diff(covered.first)
-    ball = _balls(covered)
-    row, other = spread_out(degree[ball])
+    ball = covered.ball
+    row, other = spread_out(np.diff(covered.first)[ball])
     other += covered.first[ball[row]]
     row, other = row[row != other], other[row != other]
     x, y, axis = frames(covered.axes).swapaxes(0, 1)
