@@ -1,8 +1,9 @@
 """Distance from points to the boundary of a union of balls, exact to rounding.
 
-In the plane all arcs are asked. In space: outside, it is the distance to the nearest ball. Inside, the nearest point of the boundary is straight ahead
-of a centre on a patch of its sphere, or straight ahead of the middle of a circle on one of its arcs, or the
-end of an arc. Arcs and spheres that are farther than the best point found so far are never looked at.
+In the plane all arcs are asked. In space, it is the distance to the nearest ball outside; inside, the nearest
+point of the boundary is straight ahead of a centre on a patch of its sphere, or straight ahead of the middle
+of a circle on one of its arcs, or the end of an arc. Arcs and spheres that are farther than the best point
+found so far are never looked at.
 """
 
 from __future__ import annotations
@@ -77,9 +78,8 @@ def _to_plane_arcs(points, union: BallUnion) -> np.ndarray:
 
 def _to_balls(points, centers, radii) -> np.ndarray:
     """Distance to the nearest ball, negative inside."""
-    return np.concatenate(
-        [(cdist(points[rows], centers) - radii).min(axis=1) for rows in _chunks(len(points), len(radii))]
-    )
+    parts = _chunks(len(points), len(radii))
+    return np.concatenate([(cdist(points[rows], centers) - radii).min(axis=1) for rows in parts])
 
 
 def _chunks(count: int, width: int) -> list[slice]:

@@ -95,8 +95,8 @@ def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.nd
     shared, rims = _rims(union.boundary, radii * _EDGE / parts)
     hulls = _hulls(union, parts, shared, rims)
     kept, broken = _patch_side(hulls)
-    ball = hulls.ball[kept]
-    triangles = hulls.names[hulls.triangles[kept]]
+    triangles = hulls.triangles[kept]
+    ball, triangles = hulls.ball[triangles[:, 0]], hulls.names[triangles]
     if len(broken):
         whole = ~np.isin(ball, broken)
         fans = [_fan(rims[b]) for b in broken]
@@ -109,15 +109,14 @@ def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.nd
 class _Hulls(NamedTuple):
     """Triangulated spheres, each with its own copy of the vertices on its arcs.
 
-    `names` is the row in `vertices` of each copy; `rims` are edges of copies, `rim_ball` their spheres.
+    `names` is the row in `vertices` of each copy, `ball` its sphere; `rims` are the edges of arcs.
     """
 
     vertices: np.ndarray
     names: np.ndarray
     triangles: np.ndarray
-    ball: np.ndarray
     rims: np.ndarray
-    rim_ball: np.ndarray
+    ball: np.ndarray
 
 
 def _rims(boundary: Boundary, edge: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
@@ -128,10 +127,8 @@ def _rims(boundary: Boundary, edge: np.ndarray) -> tuple[np.ndarray, list[np.nda
     row, start, end = boundary.arcs
     circles, corners = boundary.circles, boundary.corners
     whole = boundary.arcs.whole
-    ends = np.zeros((2, len(row)), dtype=np.int64)
-    if len(corners):
-        places = circles.points(np.tile(row, 2), np.concatenate([start, end]))
-        ends = cKDTree(corners).query(places)[1].reshape(2, -1)
+    places = circles.points(np.tile(row, 2), np.concatenate([start, end]))
+    ends = cKDTree(corners).query(places)[1].reshape(2, -1)
     # An arc shorter than the error of its ends is nothing.
     kept = whole | (ends[0] != ends[1]) | (end - start > np.pi)
     row, start, end, whole, ends = row[kept], start[kept], end[kept], whole[kept], ends[:, kept]
@@ -176,14 +173,8 @@ def _hulls(union: BallUnion, parts, on_arcs, rims) -> _Hulls:
         edges.append(rim + copies)
         number += len(inner)
         copies += len(shared) + len(inner)
-    return _Hulls(
-        np.concatenate(vertices),
-        np.concatenate(names),
-        np.concatenate(triangles),
-        np.repeat(balls, [len(found) for found in triangles]),
-        np.concatenate(edges),
-        np.repeat(balls, [len(rim) for rim in edges]),
-    )
+    joined = map(np.concatenate, (vertices, names, triangles, edges))
+    return _Hulls(*joined, np.repeat(np.repeat(balls, 2), [len(part) for part in names]))
 
 
 def _inner(covered: Caps, ball: int, parts: int, rim: np.ndarray) -> np.ndarray:
@@ -230,11 +221,11 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     inside, outside = np.zeros((2, number), dtype=bool)
     inside[region[triangle[left]]] = True
     outside[region[triangle[right]]] = True
-    lost = ~np.isin(rim, key)
-    whole = ~np.isin(hulls.ball, hulls.rim_ball)
+    ball, rim_ball = hulls.ball[hulls.triangles[:, 0]], hulls.ball[hulls.rims[:, 0]]
+    lost, whole = ~np.isin(rim, key), ~np.isin(ball, rim_ball)
     unclear = (inside == outside)[region] & ~whole
     doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired]])
-    return inside[region] | whole, np.union1d(hulls.rim_ball[lost], hulls.ball[doubtful])
+    return inside[region] | whole, np.union1d(rim_ball[lost], ball[doubtful])
 
 
 def _fan(edges: np.ndarray) -> np.ndarray:
