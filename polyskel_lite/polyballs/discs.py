@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .incidence import contacts, merged
-from .pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, relations, rounding
+from .pairs import PRECISION, ROUNDING, WORST, crossings, frames, lengths, meeting_pairs, relations, rounding
 from .power import PowerTriangulation
 
 TURN = 2 * np.pi
@@ -81,6 +81,19 @@ class Circles(NamedTuple):
     centers: np.ndarray
     radii: np.ndarray
     frames: np.ndarray
+
+    @classmethod
+    def between(cls, centers, radii, pairs) -> Circles:
+        """Those in which the spheres of crossing pairs of balls meet.
+
+        Examples
+        --------
+        >>> balls = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2), np.array([(0, 1)])
+        >>> Circles.between(*balls).centers.tolist()
+        [[0.5, 0.0, 0.0]]
+        """
+        middles, sizes, axes = crossings(centers, radii, pairs)
+        return cls(pairs, middles, sizes, frames(axes))
 
     def points(self, circle: np.ndarray, angle: np.ndarray) -> np.ndarray:
         """Points at given angles on given circles, (m, N).
@@ -165,15 +178,12 @@ def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
     gap = (ball[1:] == ball[:-1]) & ((start - error)[1:] > (end + error)[furthest])
     before, after = furthest[gap], np.flatnonzero(gap) + 1
     first = _wrapped(origin[before] + end[before])
-    none = np.zeros(len(whole))
-    arcs = Arcs(
-        np.concatenate([ball[before], whole]),
-        np.concatenate([first, none - np.pi]),
-        np.concatenate([first + (start[after] - end[before]), none + np.pi]),
-    )
-    errors = np.array([np.concatenate([error[before], none]), np.concatenate([error[after], none])])
-    order = np.lexsort((arcs.start, arcs.ball))
-    return Arcs(*(values[order] for values in arcs)), errors[:, order]
+    found = np.array([first, first + (start[after] - end[before]), error[before], error[after]])
+    whole_turns = np.tile([[-np.pi], [np.pi], [0], [0]], len(whole))
+    ball, found = np.append(ball[before], whole), np.concatenate([found, whole_turns], axis=1)
+    order = np.lexsort((found[0], ball))
+    start, end, *errors = found[:, order]
+    return Arcs(ball[order], start, end), np.array(errors)
 
 
 def _unrolled(covers: Covers) -> tuple[np.ndarray, ...]:

@@ -22,8 +22,7 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     >>> distinct(np.array([(0.0, 0), (1, 0), (0, 0), (0, 0)]), np.array([1, 1, 1, 2])).tolist()
     [0, 1, 3]
     """
-    first = np.unique(np.column_stack([centers, radii]), axis=0, return_index=True)[1]
-    first.sort()
+    first = np.sort(np.unique(np.column_stack([centers, radii]), axis=0, return_index=True)[1])
     centers, radii = centers[first], radii[first]
     size = np.abs(centers).max(axis=1) + radii
     i, j = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray").T

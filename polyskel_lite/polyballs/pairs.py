@@ -182,8 +182,7 @@ def relations(centers, radii, i, j) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     small, large = np.where(smaller, i, j), np.where(smaller, j, i)
     out = lengths(centers[small] - centers[large]) + radii[small] - radii[large]
     inside = out <= _SWALLOWED * radii[small] + rounding(centers, radii, small, large)
-    swallowed = np.zeros(len(radii), dtype=bool)
-    swallowed[small[inside]] = True
+    swallowed = np.isin(np.arange(len(radii)), small[inside])
     pairs = np.column_stack([i, j])[~swallowed[i] & ~swallowed[j]]
     touch = gaps(centers, radii, *pairs.T) >= -believed(centers, radii, *pairs.T)
     return swallowed, pairs[~touch], pairs[touch]

@@ -79,8 +79,7 @@ class PowerTriangulation(NamedTuple):
         >>> balls.faces(2).tolist(), balls.faces(3).tolist()
         ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
         """
-        corners = self.simplices.shape[1]
-        columns = list(combinations(range(corners), size))
+        columns = list(combinations(range(self.simplices.shape[1]), size))
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
         rows = rows[rows[:, -1] < self.count]
         more = {1: self.found[0].reshape(-1, 1), 2: self.found[0], 3: self.found[1]}
@@ -140,20 +139,14 @@ def regular_triangulation(points, weights, size: float, hide: bool = True) -> Po
     n = points.shape[1]
     ghosts = _GHOSTS[n] * size
     points = np.concatenate([points, ghosts])
-    weights = np.append(weights, np.zeros(n + 1))
-    height = (points**2).sum(axis=1) - weights
+    height = (points**2).sum(axis=1) - np.append(weights, np.zeros(n + 1))
     hull = _hull(np.column_stack([points / size, height / size**2]), hide)
     down = hull.equations[:, n]
     lower = down < -1e-12
     number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
     slope = hull.equations[lower, :n] / (-2 * down[lower, None])
-    return PowerTriangulation(
-        points=points,
-        simplices=hull.simplices[lower],
-        neighbors=number[hull.neighbors[lower]],
-        orthocenters=slope * size,
-        count=len(points) - n - 1,
-    )
+    neighbors, count = number[hull.neighbors[lower]], len(points) - n - 1
+    return PowerTriangulation(points, hull.simplices[lower], neighbors, slope * size, count)
 
 
 def _hull(points, hide: bool) -> ConvexHull:

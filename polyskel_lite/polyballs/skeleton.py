@@ -93,13 +93,9 @@ def ball_skeleton(union: BallUnion, alone, bridges) -> Skeleton:
             edges += [flat, polygons.sides()]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
     used = np.union1d(np.flatnonzero(alone), edges)
-    return Skeleton(
-        vertices=vertices[used] + union.origin,
-        radii=sizes[used],
-        simplices=np.full(len(used), -1),
-        edges=np.searchsorted(used, edges),
-        polygons=Polygons(np.searchsorted(used, polygons.corners), polygons.sizes),
-    )
+    polygons = Polygons(np.searchsorted(used, polygons.corners), polygons.sizes)
+    edges, no_simplex = np.searchsorted(used, edges), np.full(len(used), -1)
+    return Skeleton(vertices[used] + union.origin, sizes[used], no_simplex, edges, polygons)
 
 
 def verified_skeleton(union: BallUnion) -> Skeleton:
@@ -190,11 +186,10 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
     place, size = _circumballs(corners[t.simplices[rest]], t.orthocenters[rest])
     # The same ball may be one of the given ones, or that of a neighbouring simplex.
     distance, nearest = cKDTree(centers).query(place)
-    given = distance <= _SAME * size
-    given &= np.abs(radii[nearest] - size) <= _SAME * size
+    given = (distance <= _SAME * size) & (np.abs(radii[nearest] - size) <= _SAME * size)
     label[rest[given]] = nearest[given]
-    rest, place, size = rest[~given], place[~given], size[~given]
-    kept = _in_union(t.simplices[rest], place, corners, on, centers)
+    kept = ~given
+    kept[kept] = _in_union(t.simplices[rest[kept]], place[kept], corners, on, centers)
     rest, place, size = rest[kept], place[kept], size[kept]
     number = np.full(len(t.simplices), -1)
     number[rest] = np.arange(len(rest))
@@ -284,18 +279,16 @@ def _about_middle(face, places) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _ring_places(t, label, faces: _Faces) -> np.ndarray:
     """The place of each skeleton vertex in the ring around its face, -1 on faces that are cut."""
-    edges, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
+    _, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
     vertex = label[owner]
-    outside = np.zeros(len(edges), dtype=bool)
-    outside[edge[vertex < 0]] = True
     rows = np.argsort(position)
     rows = rows[vertex[rows] >= 0]
     bound = 1 + max(label.max(), faces.vertex.max(initial=0))
     at = found_at(edge[rows] * bound + vertex[rows], faces.face * bound + faces.vertex)
     place = np.append(position[rows], -1)[at]
     # A centre of a ball that is no vertex of the ring is where the face was cut.
-    outside[faces.face[place < 0]] = True
-    return np.where(outside[faces.face], -1, place)
+    cut = np.append(edge[vertex < 0], faces.face[place < 0])
+    return np.where(np.isin(faces.face, cut), -1, place)
 
 
 def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.ndarray]:

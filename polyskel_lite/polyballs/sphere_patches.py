@@ -218,9 +218,7 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     through = paired & ~left & ~right
     links = np.column_stack([triangle, triangle[at]])[through]
     number, region = components(len(hulls.triangles), links)
-    inside, outside = np.zeros((2, number), dtype=bool)
-    inside[region[triangle[left]]] = True
-    outside[region[triangle[right]]] = True
+    inside, outside = (np.isin(np.arange(number), region[triangle[side]]) for side in (left, right))
     ball, rim_ball = hulls.ball[hulls.triangles[:, 0]], hulls.ball[hulls.rims[:, 0]]
     lost, whole = ~np.isin(rim, key), ~np.isin(ball, rim_ball)
     unclear = (inside == outside)[region] & ~whole

@@ -12,18 +12,7 @@ from scipy.spatial import cKDTree
 from ..exact import occurrences, unique_rows
 from .discs import Arcs, Boundary, Circles, Covers, ends_of, uncovered
 from .incidence import contacts, merged
-from .pairs import (
-    PRECISION,
-    balls_near,
-    crossings,
-    found_at,
-    frames,
-    in_any,
-    lengths,
-    meeting_graph,
-    relations,
-    rounding,
-)
+from .pairs import PRECISION, balls_near, found_at, in_any, lengths, meeting_graph, relations, rounding
 from .power import PowerTriangulation
 
 # However badly known a circle, no point of it is off by more than this angle.
@@ -58,15 +47,12 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     (3, 2)
     """
     gone, crossing, touching = relations(centers, radii, *power.faces(2).T)
-    middle, radius, axis = crossings(centers, radii, crossing)
-    circles = Circles(crossing, middle, radius, frames(axis))
+    circles = Circles.between(centers, radii, crossing)
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
     corners = merged(*ends_of(arcs, errors, circles))
     keep, row = np.unique(arcs.ball, return_inverse=True)
-    crossed, exposed = np.zeros((2, len(radii)), dtype=bool)
-    crossed[crossing] = True
-    exposed[crossing[keep]] = True
+    crossed, exposed = (np.isin(np.arange(len(radii)), pairs) for pairs in (crossing, crossing[keep]))
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
     poles = centers[whole] + radii[whole, None] * _POLE
@@ -102,8 +88,7 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     # A ball through the whole circle, within the error, covers nothing of it.
     none_in |= np.abs(excess) + across <= error
     all_in &= ~none_in
-    covered = np.zeros(len(circles.pairs), dtype=bool)
-    covered[row[all_in]] = True
+    covered = np.isin(np.arange(len(circles.pairs)), row[all_in])
     some = ~(all_in | none_in) & ~covered[row]
     row, across, excess, error, x, y = (v[some] for v in (row, across, excess, error, x, y))
     above, below = np.maximum(across - excess, 0), np.maximum(across + excess, 0)

@@ -164,13 +164,11 @@ class BallUnion:
         >>> three.crossing().tolist(), len(three.crossing(bare=True))
         ([[0, 1], [0, 2], [1, 2]], 0)
         """
-        corners = self.boundary.corners
         if self.in_space:
             arcs, pairs = self.boundary.arcs, self.boundary.circles.pairs
             return pairs[np.isin(np.arange(len(pairs)), arcs.ball[arcs.whole])] if bare else pairs
-        if not len(corners):
-            return np.zeros((0, 2), dtype=np.int64)
-        pairs, times = Incidence(corners, self.centers, self.radii, self.origin).pairs()
+        on = Incidence(self.boundary.corners, self.centers, self.radii, self.origin)
+        pairs, times = on.pairs()
         return pairs[times >= 2] if bare else pairs
 
     def as_given(self, pairs: np.ndarray) -> np.ndarray:

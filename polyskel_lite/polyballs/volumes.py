@@ -164,8 +164,7 @@ def _arcs(covered: Caps) -> Arcs:
     # Of equal caps the first one has the edge; caps that share an edge from both sides leave nothing.
     outside = np.where(same, (side < 0) | (row < other), outside & ~inside)
     inside = np.where(same, ~outside, inside)
-    hidden = np.zeros(len(ball), dtype=bool)
-    hidden[row[inside]] = True
+    hidden = np.isin(np.arange(len(ball)), row[inside])
     some = ~(inside | outside) & ~hidden[row]
     row, across, excess, u, v = row[some], across[some], excess[some], u[some], v[some]
     covers = Covers.about(row, u, v, across - excess, across + excess, np.zeros(len(row)))

@@ -177,8 +177,6 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
     >>> free_edges(flag).tolist()
     [3]
     """
-    if not len(skeleton.polygons):
-        return np.arange(len(skeleton.edges))
     n = len(skeleton.vertices)
     sides = skeleton.polygons.sides()
     key = np.sort(skeleton.edges, axis=1) @ np.array([n, 1])
@@ -189,9 +187,7 @@ def _sheet_of(skeleton: Skeleton):
     """For each vertex the sheet it is on, or -1, and the vertices of each sheet."""
     n = len(skeleton.vertices)
     node = np.full(n, -1)
-    if not len(skeleton.polygons):
-        return node, []
     _, label = components(n, skeleton.polygons.sides())
     on = np.unique(skeleton.polygons.corners)
     _, node[on] = np.unique(label[on], return_inverse=True)
-    return node, [np.flatnonzero(node == s) for s in range(node.max() + 1)]
+    return node, [np.flatnonzero(node == s) for s in range(node.max(initial=-1) + 1)]
