@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
-from .discs import TURN, Arcs, Boundary
+from .discs import TURN, Boundary
 from .pairs import octaves, rounding, spread_out
 from .union import BallUnion
 
@@ -92,8 +92,6 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     """Distance to the nearest arc, ends included; infinite if there is none."""
     circles, arcs = boundary.circles, boundary.arcs
     row, start, end = arcs
-    if not len(row):
-        return np.full(len(points), np.inf)
     size = np.ceil((end - start) / _PIECE).astype(np.intp)
     arc, number = spread_out(size)
     half = ((end - start) / size / 2)[arc]
@@ -106,23 +104,16 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     for group in octaves(reach):
         near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
-        if not len(point):
-            continue
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
         pairs = np.unique(point * len(row) + arc[piece])
         point, found = pairs // len(row), pairs % len(row)
-        gap = _ahead(points[point], circles, Arcs(*(values[found] for values in arcs)))
-        np.minimum.at(best, point, gap)
+        # The nearest point of the circle is straight ahead of its middle; it counts if it is on the arc.
+        seen = points[point] - circles.centers[row[found]]
+        x, y, z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
+        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
+        gap = np.hypot(z, np.hypot(x, y) - circles.radii[row[found]])
+        np.minimum.at(best, point[on], gap[on])
     return best
-
-
-def _ahead(points, circles, arcs: Arcs) -> np.ndarray:
-    """Distance to the point of the circle straight ahead of its middle, infinite if it is not on the arc."""
-    circle, start, end = arcs
-    x, y, z = np.einsum("mck,mk->cm", circles.frames[circle], points - circles.centers[circle])
-    turn = np.arctan2(y, x) - start
-    on = arcs.whole | (turn % TURN <= end - start)
-    return np.where(on, np.hypot(z, np.hypot(x, y) - circles.radii[circle]), np.inf)
 
 
 def _to_patches(points, union: BallUnion, best) -> None:

@@ -56,7 +56,7 @@ class Incidence:
         """The pairs of balls with a common singular point, sorted, (m, 2), and how many they have."""
         shared = triu(self.matrix.T @ self.matrix, 1, format="coo")
         order = np.lexsort((shared.col, shared.row))
-        return np.column_stack([shared.row, shared.col])[order], shared.data[order]
+        return np.stack([shared.row, shared.col], axis=1, dtype=np.int64)[order], shared.data[order]
 
     def balls(self, point: int) -> np.ndarray:
         """The balls of one singular point."""
@@ -88,13 +88,11 @@ def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Inc
     on = Incidence(corners, centers, radii, origin)
     reach = _NEAR * on.smallest(radii)
     reach[~np.isfinite(reach)] = 0
-    i, j = cKDTree(corners).query_pairs(reach.max(), output_type="ndarray").T
-    near = lengths(corners[i] - corners[j]) <= np.minimum(reach[i], reach[j])
-    if not near.any():
-        return corners, on
-    _, group = components(len(corners), np.column_stack([i, j])[near])
+    group = _linked(corners, reach, np.minimum)
     # The point on most spheres is the best-known one.
     best = _least(-on.sizes(), group)
+    if len(best) == len(corners):
+        return corners, on
     spread = np.zeros(len(best))
     np.maximum.at(spread, group, lengths(corners - corners[best][group]))
     return corners[best], Incidence(corners[best], centers, radii, origin, 2 * spread)
@@ -110,9 +108,14 @@ def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """
     if not len(points):
         return points
-    near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
-    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
-    return points[_least(errors, components(len(points), near)[1])]
+    return points[_least(errors, _linked(points, errors, np.add))]
+
+
+def _linked(points, reach, both) -> np.ndarray:
+    """The group of each point: linked by distances within `both` (least or sum) of the reaches of two."""
+    i, j = cKDTree(points).query_pairs(2 * reach.max(), output_type="ndarray").T
+    near = lengths(points[i] - points[j]) <= both(reach[i], reach[j])
+    return components(len(points), np.column_stack([i, j])[near])[1]
 
 
 def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray]:

@@ -103,9 +103,8 @@ def meeting_graph(centers, radii) -> csr_array:
 
 def pair_bound(centers, radii) -> int:
     """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
-    return sum(
-        int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in _octave_pairs(centers, radii)
-    )
+    groups = _octave_pairs(centers, radii)
+    return sum(int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in groups)
 
 
 def _octave_pairs(centers, radii):

@@ -137,8 +137,7 @@ def regular_triangulation(points, weights, size: float, hide: bool = True) -> Po
     [[0, 1]]
     """
     n = points.shape[1]
-    ghosts = _GHOSTS[n] * size
-    points = np.concatenate([points, ghosts])
+    points = np.concatenate([points, _GHOSTS[n] * size])
     height = (points**2).sum(axis=1) - np.append(weights, np.zeros(n + 1))
     hull = _hull(np.column_stack([points / size, height / size**2]), hide)
     down = hull.equations[:, n]
@@ -241,8 +240,8 @@ def _orthoballs(points, weights, faces) -> tuple[np.ndarray, np.ndarray]:
 
 def _betti(t, shape, solid) -> tuple[int, ...]:
     """Betti numbers of a part of the triangulation: its simplices by size, and which largest ones it has."""
-    used, ends = np.unique(shape[2], return_inverse=True)
-    pieces = components(len(used), ends.reshape(-1, 2))[0] + len(shape[1]) - len(used)
+    # A ball that is not in the shape is a piece of its own in this graph.
+    pieces = components(t.count, shape[2])[0] - t.count + len(shape[1])
     characteristic = sum((-1) ** (size - 1) * len(faces) for size, faces in shape.items())
     if len(shape) == 3:
         return pieces, pieces - characteristic

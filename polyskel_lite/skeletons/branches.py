@@ -145,23 +145,20 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
     begin, end = along[first][chain], along[last][chain]
     s = begin + share * (end - begin)
 
-    def vertex_before(s):
-        return np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
-
-    def at(s, k):
-        part = ((s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1))[:, None]
-        return points[k] + part * (points[k + 1] - points[k])
+    def at(s):
+        k = np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
+        part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
+        return k, part, points[k] + part[:, None] * (points[k + 1] - points[k])
 
     def up_to(s):
-        k = vertex_before(s)
-        return integral[k] + (s - along[k])[:, None] * (points[k] + at(s, k)) / 2
+        k, _, place = at(s)
+        return integral[k] + (s - along[k])[:, None] * (points[k] + place) / 2
 
-    k = vertex_before(s)
-    part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
+    k, part, place = at(s)
     half = np.minimum((radii[k] + part * (radii[k + 1] - radii[k])) / 2, np.minimum(s - begin, end - s))
     wide = ((half > 0) & (share > 0) & (share < 1))[:, None]  # the ends stay
     mean = (up_to(s + half) - up_to(s - half)) / np.where(wide, 2 * half[:, None], 1)
-    ways = np.linalg.norm(np.diff(np.where(wide, mean, at(s, k)), axis=0), axis=1)
+    ways = np.linalg.norm(np.diff(np.where(wide, mean, place), axis=0), axis=1)
     ways = np.append(ways, 0.0)
     ways[np.cumsum(count) - 1] = 0
     return np.add.reduceat(ways, np.cumsum(count) - count)
