@@ -3,7 +3,8 @@
 Delaunay discs are the hard case, not the easy one: many circles pass through the same sample,
 neighbouring circles nearly coincide when four samples are cocircular, and rounded centres and radii
 keep none of this exactly. So each crossing of two circles carries the length by which rounding may
-have moved it, and two crossings no further apart than their two lengths count as one.
+have moved it, and two crossings no further apart than their two lengths count as one. In space the
+circles in which spheres cross are cut into arcs in the same way (`spheres`).
 """
 
 from __future__ import annotations
@@ -20,12 +21,12 @@ TURN = 2 * np.pi
 
 
 class Arcs(NamedTuple):
-    """Arcs of the boundary of a union of discs, counter-clockwise (the union on their left).
+    """Arcs of circles on the boundary, counter-clockwise (in the plane the union is on their left).
 
     Attributes
     ----------
     ball : (a,) int array
-        The disc on whose circle the arc lies.
+        The disc on whose circle the arc lies; in space the row of the circle.
     start, end : (a,) float arrays
         Angles in radians, -π <= start < π and start < end <= start + 2π; equal for a whole circle.
     """
