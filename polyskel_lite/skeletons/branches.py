@@ -59,31 +59,34 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
         graph.add_node(v, kind=names.get(int(degree[v]), "junction"), **_place(skeleton, v))
     for s, members in enumerate(sheets):
         graph.add_node(n + s, kind="sheet", vertices=members)
-    incident: dict[int, list[tuple[int, int]]] = {}
-    for e, (a, b) in enumerate(ends.tolist()):
-        incident.setdefault(a, []).append((e, b))
-        incident.setdefault(b, []).append((e, a))
+    # At each node: the edges there, where each leads, and its vertices on the way.
+    incident: dict[int, list[tuple[int, int, list[int]]]] = {}
+    for e, ((a, b), wire) in enumerate(zip(ends.tolist(), wires.tolist(), strict=True)):
+        incident.setdefault(a, []).append((e, b, wire))
+        # From sheet to sheet the order of the vertices stays.
+        incident.setdefault(b, []).append((e, a, wire if min(a, b) >= n else wire[::-1]))
     used = np.zeros(len(wires), dtype=bool)
 
-    def walk(start, e, towards):
-        path, real = [start, towards], [wires[e].tolist()]
+    def walk(start, e, towards, vertices):
+        path = list(vertices)
         used[e] = True
         while towards < n and not stop[towards] and towards != start:
-            e, towards = next((f, b) for f, b in incident[towards] if not used[f])
+            e, towards, vertices = next(edge for edge in incident[towards] if not used[edge[0]])
             used[e] = True
-            path.append(towards)
-            real.append(wires[e].tolist())
-        _add_branch(graph, skeleton, path, real)
+            path.append(vertices[1])
+        points = skeleton.vertices[path]
+        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        radii = skeleton.radii[path].tolist()
+        graph.add_edge(start, towards, path=path, length=length, radii=radii)
 
     for start in [*np.flatnonzero(stop).tolist(), *range(n, n + k)]:
-        for e, towards in incident.get(start, []):
-            if not used[e]:
-                walk(start, e, towards)
-    for e in range(len(wires)):  # what is left are closed chains
+        for edge in incident.get(start, []):
+            if not used[edge[0]]:
+                walk(start, *edge)
+    for e, wire in enumerate(wires.tolist()):  # what is left are closed chains
         if not used[e]:
-            start, towards = ends[e].tolist()
-            graph.add_node(start, kind="loop", **_place(skeleton, start))
-            walk(start, e, towards)
+            graph.add_node(wire[0], kind="loop", **_place(skeleton, wire[0]))
+            walk(wire[0], e, wire[1], wire)
     paths = [path for _, _, path in graph.edges(data="path")]
     places = np.concatenate([np.zeros(0, dtype=np.intp), *paths]).astype(np.intp)
     smooth = smooth_lengths(skeleton.vertices[places], skeleton.radii[places], [len(path) for path in paths])
@@ -95,21 +98,6 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
 
 def _place(skeleton, v):
     return {"pos": tuple(skeleton.vertices[v].tolist()), "radius": float(skeleton.radii[v])}
-
-
-def _add_branch(graph, skeleton, path, real):
-    """Add the branch along skeleton edges ``real``; ``path`` names its stops, sheets included."""
-    vertices = list(real[0])
-    if len(real) > 1 and vertices[0] in real[1]:
-        vertices.reverse()
-    for a, b in real[1:]:
-        vertices.append(b if a == vertices[-1] else a)
-    if len(real) == 1 and path[0] < len(skeleton.vertices) and vertices[0] != path[0]:
-        vertices.reverse()
-    points = skeleton.vertices[vertices]
-    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    radii = skeleton.radii[vertices].tolist()
-    graph.add_edge(path[0], path[-1], path=vertices, length=length, radii=radii)
 
 
 def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
@@ -157,23 +145,20 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
     begin, end = along[first][chain], along[last][chain]
     s = begin + share * (end - begin)
 
-    def vertex_before(s):
-        return np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
-
-    def at(s, k):
-        part = ((s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1))[:, None]
-        return points[k] + part * (points[k + 1] - points[k])
+    def at(s):
+        k = np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
+        part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
+        return k, part, points[k] + part[:, None] * (points[k + 1] - points[k])
 
     def up_to(s):
-        k = vertex_before(s)
-        return integral[k] + (s - along[k])[:, None] * (points[k] + at(s, k)) / 2
+        k, _, place = at(s)
+        return integral[k] + (s - along[k])[:, None] * (points[k] + place) / 2
 
-    k = vertex_before(s)
-    part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
+    k, part, place = at(s)
     half = np.minimum((radii[k] + part * (radii[k + 1] - radii[k])) / 2, np.minimum(s - begin, end - s))
     wide = ((half > 0) & (share > 0) & (share < 1))[:, None]  # the ends stay
     mean = (up_to(s + half) - up_to(s - half)) / np.where(wide, 2 * half[:, None], 1)
-    ways = np.linalg.norm(np.diff(np.where(wide, mean, at(s, k)), axis=0), axis=1)
+    ways = np.linalg.norm(np.diff(np.where(wide, mean, place), axis=0), axis=1)
     ways = np.append(ways, 0.0)
     ways[np.cumsum(count) - 1] = 0
     return np.add.reduceat(ways, np.cumsum(count) - count)
@@ -189,8 +174,6 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
     >>> free_edges(flag).tolist()
     [3]
     """
-    if not len(skeleton.polygons):
-        return np.arange(len(skeleton.edges))
     n = len(skeleton.vertices)
     sides = skeleton.polygons.sides()
     key = np.sort(skeleton.edges, axis=1) @ np.array([n, 1])
@@ -201,9 +184,7 @@ def _sheet_of(skeleton: Skeleton):
     """For each vertex the sheet it is on, or -1, and the vertices of each sheet."""
     n = len(skeleton.vertices)
     node = np.full(n, -1)
-    if not len(skeleton.polygons):
-        return node, []
     _, label = components(n, skeleton.polygons.sides())
     on = np.unique(skeleton.polygons.corners)
     _, node[on] = np.unique(label[on], return_inverse=True)
-    return node, [np.flatnonzero(node == s) for s in range(node.max() + 1)]
+    return node, [np.flatnonzero(node == s) for s in range(node.max(initial=-1) + 1)]
