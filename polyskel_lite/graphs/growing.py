@@ -19,17 +19,18 @@ _CHUNK = 20_000
 _used: set[int] = set()  # dimensions whose compiled loops are at hand in this process
 
 
-def compile_loops(dimension: int) -> None:
-    """Compile the loops for the plane or for space, or take them from numba's cache; needs numba.
+def compile_loops(dimension: int) -> bool:
+    """Compile the loops for the plane or for space, or take them from numba's cache; False without numba.
 
     Examples
     --------
-    >>> compile_loops(2)
-    >>> compiled_wanted(3, 2)
+    >>> compile_loops(2) == compiled_wanted(3, 2)
     True
     """
-    loops.made(True, **_constants(dimension))
-    _used.add(dimension)
+    if loops.can_compile():
+        loops.made(True, **_constants(dimension))
+        _used.add(dimension)
+    return dimension in _used
 
 
 def _constants(dimension):
@@ -47,10 +48,9 @@ def compiled_wanted(n: int, dimension: int, hard: bool = False) -> bool:
     >>> compiled_wanted(10, 2, hard=True) in (False, compiled_wanted(10, 2))
     True
     """
-    asked = dimension not in _used and n >= (LOOK_FROM if hard else COMPILE_FROM) and loops.can_compile()
-    if asked and (n >= COMPILE_FROM or loops.is_cached(**_constants(dimension))):
-        compile_loops(dimension)
-    return dimension in _used
+    if dimension in _used or n < (LOOK_FROM if hard else COMPILE_FROM) or not loops.can_compile():
+        return dimension in _used
+    return (n >= COMPILE_FROM or loops.is_cached(**_constants(dimension))) and compile_loops(dimension)
 
 
 class Change(NamedTuple):

@@ -111,7 +111,7 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     count = len(union.radii)
     covered = union.caps
     row, start, end = _arcs(covered)
-    ball = covered.ball[row]
+    ball = covered.ball[row].astype(np.intp)  # what bincount takes in a browser
     x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
     h = covered.heights[row]
     s = np.sqrt(np.maximum(1 - h**2, 0))
