@@ -6,4 +6,4 @@ graph. The Voronoi graph is the dual, and stands with the skeletons.
 
 from .delaunay_graph import as_tessellation, delaunay
 from .gabriel_graph import gabriel, gabriel_mask
-from .tessellation import OPPOSITE, Tessellation, circumballs, facet_rows, ordinary
+from .tessellation import OPPOSITE, Tessellation, circumballs, corners_of, facet_rows, in_blocks, ordinary
