@@ -54,7 +54,7 @@ def delaunay(points, facets=None) -> Tessellation:
     check_distinct(points)
     if facets is not None:
         facets = as_indices(facets, "facets", len(points), points.shape[1])
-    return Tessellation(points, *triangulate(points, facets))
+    return Tessellation.trusted(points, *triangulate(points, facets))
 
 
 def as_tessellation(points_or_tessellation) -> Tessellation:
