@@ -95,7 +95,7 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: _circumballs(corners_of(scaled, rows)), len(self.simplices))
+        balls = in_blocks(lambda rows: _circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
         return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
 
     @property
@@ -125,7 +125,6 @@ class Tessellation:
         ([[1, 2], [0, 2], [0, 1]], [[0, -1], [0, -1], [0, -1]])
         """
         t, corners = self.simplices.shape
-        across = self.neighbors.ravel()
         place = np.flatnonzero((self.neighbors < 0) | (np.arange(t)[:, None] < self.neighbors))
         first, opposite = np.divmod(place, corners)
         a, b, *c = (self.simplices.ravel()[corners * first + k[opposite]] for k in OPPOSITE[corners].T)
@@ -134,7 +133,7 @@ class Tessellation:
         facets[:, 0], facets[:, -1] = (np.minimum(low, *c), np.maximum(high, *c)) if c else (low, high)
         if c:
             facets[:, 1] = np.maximum(low, np.minimum(high, *c))
-        return facets, np.stack([first, across[place]], axis=1)
+        return facets, np.stack([first, self.neighbors.ravel()[place]], axis=1)
 
     def facets(self) -> np.ndarray:
         """The Delaunay segments (N = 2) or triangles (N = 3), each once, (m, N).
@@ -207,7 +206,7 @@ def corners_of(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
     return np.take(tessellation.points.T, simplices, axis=1).transpose(2, 1, 0)
 
 
-def in_blocks(function, rows: int | np.ndarray) -> tuple[np.ndarray, ...]:
+def in_blocks(function, rows: np.ndarray) -> tuple[np.ndarray, ...]:
     """The arrays that a function makes of some rows, computed in blocks that stay in the processor's cache.
 
     Examples
@@ -215,7 +214,6 @@ def in_blocks(function, rows: int | np.ndarray) -> tuple[np.ndarray, ...]:
     >>> in_blocks(lambda rows: (rows**2,), np.arange(4))[0].tolist()
     [0, 1, 4, 9]
     """
-    rows = np.arange(rows) if isinstance(rows, int) else rows
     blocks = [function(rows[k : k + _BLOCK]) for k in range(0, max(len(rows), 1), _BLOCK)]
     # In the order of C, whatever that of the blocks.
     return tuple(np.ascontiguousarray(np.concatenate(parts)) for parts in zip(*blocks, strict=True))

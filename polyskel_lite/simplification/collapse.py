@@ -171,27 +171,24 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     t, size = simplices.shape
     there = neighbors >= 0
     measure = np.zeros((t, size)) if measure is None else measure
-    alpha = np.zeros(0) if alpha is None else np.ascontiguousarray(alpha).ravel()
+    alpha = np.zeros(0) if alpha is None else alpha
     arrays = [
-        np.ascontiguousarray(simplices).ravel(),
-        np.ascontiguousarray(neighbors).ravel(),
+        simplices.ravel(),
+        neighbors.ravel(),
         np.ones(t, dtype=bool),
         there.sum(axis=1),
         np.where(there, 0.0, measure).sum(axis=1),
-        np.ascontiguousarray(measure).ravel(),
-        alpha,
+        measure.ravel(),
+        alpha.ravel(),
         radii,
         np.full(t, np.inf),
         np.zeros(t, dtype=np.int8),
         np.zeros(t, dtype=np.int64),
     ]
-    loop = _compiled() if compiled is None or compiled else None
+    loop, filled = _compiled() if compiled is None or compiled else None, arrays
     if loop is None:
         # Python reads lists several times faster than arrays.
-        lists = [array.tolist() for array in arrays]
-        removed = remove_in_order(size, _RULES[rule], printed, *lists)
-        level, kind, order, share = (np.array(lists[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
-    else:
-        removed = loop(size, _RULES[rule], printed, *arrays)
-        level, kind, order, share = (arrays[k] for k in (8, 9, 10, 4))
+        loop, filled = remove_in_order, [array.tolist() for array in arrays]
+    removed = loop(size, _RULES[rule], printed, *filled)
+    level, kind, order, share = (np.asarray(filled[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
     return level, kind, order[:removed], share

@@ -55,9 +55,9 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     stop = (degree[:n] != 2) & (node < 0)
     begins = np.append(stop, np.ones(k, dtype=bool))
     graph = networkx.MultiGraph()
-    names = {0: "point", 1: "end"}
     for v in np.flatnonzero(stop).tolist():
-        graph.add_node(v, kind=names.get(int(degree[v]), "junction"), **_place(skeleton, v))
+        kind = {0: "point", 1: "end"}.get(int(degree[v]), "junction")
+        graph.add_node(v, kind=kind, **_place(skeleton, v))
     for s, members in enumerate(sheets):
         graph.add_node(n + s, kind="sheet", vertices=members)
     # Inside a chain, the number of the next edge is the sum of its vertex minus the number of the last one.
@@ -97,8 +97,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     end = 0
     for (_, _, data), length in zip(graph.edges(data=True), smooth, strict=True):
         at, end = end, end + len(data["path"])
-        data["length"], data["radii"] = float(pieces[at : end - 1].sum()), radii[at:end]
-        data["smooth_length"] = length
+        data |= {"length": float(pieces[at : end - 1].sum()), "radii": radii[at:end], "smooth_length": length}
     graph.graph["branches"] = sum(kind == "end" for _, kind in graph.nodes(data="kind"))
     return graph
 

@@ -39,9 +39,7 @@ def dual_complex(
     crossed = None if cut is None else _local(tessellation, cut)
     beyond = number[tessellation.neighbors[simplices]]
     # As in the table of facets: those of the first simplex first, and each from its first simplex.
-    dual = beyond > np.arange(len(simplices))[:, None]
-    if crossed is not None:
-        dual &= ~crossed[simplices]
+    dual = (beyond > np.arange(len(simplices))[:, None]) & (True if cut is None else ~crossed[simplices])
     edges = np.stack([np.nonzero(dual)[0], beyond[dual]], axis=1)
     polygons = Polygons()
     if tessellation.dimension == 3:
