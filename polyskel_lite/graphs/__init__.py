@@ -6,6 +6,6 @@ ties; the Gabriel graph. The Voronoi graph is the dual, and stands with the skel
 
 from .delaunay_graph import as_tessellation, delaunay, grown_from
 from .gabriel_graph import gabriel, gabriel_mask
-from .growing import Change, compile_loops, compiled_wanted
-from .tessellation import OPPOSITE, Tessellation, circumballs, facet_rows, ordinary
+from .growing import Change, compiled_wanted
+from .tessellation import OPPOSITE, Tessellation, circumballs, corners_of, facet_rows, in_blocks, ordinary
 from .triangulation import preferring

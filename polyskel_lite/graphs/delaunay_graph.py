@@ -57,7 +57,7 @@ def delaunay(points, facets=None) -> Tessellation:
     if facets is not None:
         facets = as_indices(facets, "facets", len(points), points.shape[1])
     simplices, neighbors, growing = triangulate(points, facets)
-    tessellation = Tessellation(points, simplices, neighbors)
+    tessellation = Tessellation.trusted(points, simplices, neighbors)
     object.__setattr__(tessellation, "_growing", growing)
     return tessellation
 

@@ -19,20 +19,6 @@ _CHUNK = 20_000
 _used: set[int] = set()  # dimensions whose compiled loops are at hand in this process
 
 
-def compile_loops(dimension: int) -> bool:
-    """Compile the loops for the plane or for space, or take them from numba's cache; False without numba.
-
-    Examples
-    --------
-    >>> compile_loops(2) == compiled_wanted(3, 2)
-    True
-    """
-    if loops.can_compile():
-        loops.made(True, **_constants(dimension))
-        _used.add(dimension)
-    return dimension in _used
-
-
 def _constants(dimension):
     return {"N": dimension, "M": dimension + 1}
 
@@ -50,7 +36,10 @@ def compiled_wanted(n: int, dimension: int, hard: bool = False) -> bool:
     """
     if dimension in _used or n < (LOOK_FROM if hard else COMPILE_FROM) or not loops.can_compile():
         return dimension in _used
-    return (n >= COMPILE_FROM or loops.is_cached(**_constants(dimension))) and compile_loops(dimension)
+    if n >= COMPILE_FROM or loops.is_cached(**_constants(dimension)):
+        loops.made(True, **_constants(dimension))
+        _used.add(dimension)
+    return dimension in _used
 
 
 class Change(NamedTuple):

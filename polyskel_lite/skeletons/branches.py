@@ -53,45 +53,51 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     degree = occurrences(ends, n + k)
     # Where branches begin: everything but the inside of a chain; a sheet always.
     stop = (degree[:n] != 2) & (node < 0)
+    begins = np.append(stop, np.ones(k, dtype=bool))
     graph = networkx.MultiGraph()
-    names = {0: "point", 1: "end"}
     for v in np.flatnonzero(stop).tolist():
-        graph.add_node(v, kind=names.get(int(degree[v]), "junction"), **_place(skeleton, v))
+        kind = {0: "point", 1: "end"}.get(int(degree[v]), "junction")
+        graph.add_node(v, kind=kind, **_place(skeleton, v))
     for s, members in enumerate(sheets):
         graph.add_node(n + s, kind="sheet", vertices=members)
-    # At each node: the edges there, where each leads, and its vertices on the way.
-    incident: dict[int, list[tuple[int, int, list[int]]]] = {}
-    for e, ((a, b), wire) in enumerate(zip(ends.tolist(), wires.tolist(), strict=True)):
-        incident.setdefault(a, []).append((e, b, wire))
-        # From sheet to sheet the order of the vertices stays.
-        incident.setdefault(b, []).append((e, a, wire if min(a, b) >= n else wire[::-1]))
-    used = np.zeros(len(wires), dtype=bool)
+    # Inside a chain, the number of the next edge is the sum of its vertex minus the number of the last one.
+    total = np.zeros(n + k, dtype=np.int64)
+    for column in ends.T:
+        np.add.at(total, column, np.arange(len(wires)))
+    first = [(e, side) for e in np.flatnonzero(begins[ends].any(axis=1)).tolist() for side in (0, 1)]
+    total, begins, ends, wires = total.tolist(), begins.tolist(), ends.T.tolist(), wires.T.tolist()
+    used = [False] * len(ends[0])
 
-    def walk(start, e, towards, vertices):
-        path = list(vertices)
-        used[e] = True
-        while towards < n and not stop[towards] and towards != start:
-            e, towards, vertices = next(edge for edge in incident[towards] if not used[edge[0]])
+    def walk(e, side):
+        start, path = ends[side][e], [wires[side][e]]
+        while True:
             used[e] = True
-            path.append(vertices[1])
-        points = skeleton.vertices[path]
-        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-        radii = skeleton.radii[path].tolist()
-        graph.add_edge(start, towards, path=path, length=length, radii=radii)
+            path.append(wires[1 - side][e])
+            at = ends[1 - side][e]
+            if begins[at] or at == start:
+                break
+            e = total[at] - e
+            side = int(ends[1][e] == at)
+        if start >= n and len(path) == 2:
+            path = [wires[0][e], wires[1][e]]
+        graph.add_edge(start, at, path=path)
 
-    for start in [*np.flatnonzero(stop).tolist(), *range(n, n + k)]:
-        for edge in incident.get(start, []):
-            if not used[edge[0]]:
-                walk(start, *edge)
-    for e, wire in enumerate(wires.tolist()):  # what is left are closed chains
+    for e, side in sorted(first, key=lambda place: ends[place[1]][place[0]]):
+        if begins[ends[side][e]] and not used[e]:
+            walk(e, side)
+    for e, start in enumerate(ends[0]):  # what is left are closed chains
         if not used[e]:
-            graph.add_node(wire[0], kind="loop", **_place(skeleton, wire[0]))
-            walk(wire[0], e, wire[1], wire)
+            graph.add_node(start, kind="loop", **_place(skeleton, start))
+            walk(e, 0)
     paths = [path for _, _, path in graph.edges(data="path")]
     places = np.concatenate([np.zeros(0, dtype=np.intp), *paths]).astype(np.intp)
-    smooth = smooth_lengths(skeleton.vertices[places], skeleton.radii[places], [len(path) for path in paths])
-    for (_, _, data), length in zip(graph.edges(data=True), smooth.tolist(), strict=True):
-        data["smooth_length"] = length
+    points, radii = skeleton.vertices[places], skeleton.radii[places]
+    smooth = smooth_lengths(points, radii, [len(path) for path in paths]).tolist()
+    pieces, radii = np.linalg.norm(np.diff(points, axis=0), axis=1), radii.tolist()
+    end = 0
+    for (_, _, data), length in zip(graph.edges(data=True), smooth, strict=True):
+        at, end = end, end + len(data["path"])
+        data |= {"length": float(pieces[at : end - 1].sum()), "radii": radii[at:end], "smooth_length": length}
     graph.graph["branches"] = sum(kind == "end" for _, kind in graph.nodes(data="kind"))
     return graph
 
@@ -145,20 +151,23 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
     begin, end = along[first][chain], along[last][chain]
     s = begin + share * (end - begin)
 
-    def at(s):
-        k = np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
-        part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
-        return k, part, points[k] + part[:, None] * (points[k + 1] - points[k])
+    def vertex_before(s):
+        return np.clip(np.searchsorted(along, s, side="right") - 1, first[chain], last[chain] - 1)
+
+    def at(s, k):
+        part = ((s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1))[:, None]
+        return points[k] + part * (points[k + 1] - points[k])
 
     def up_to(s):
-        k, _, place = at(s)
-        return integral[k] + (s - along[k])[:, None] * (points[k] + place) / 2
+        k = vertex_before(s)
+        return integral[k] + (s - along[k])[:, None] * (points[k] + at(s, k)) / 2
 
-    k, part, place = at(s)
+    k = vertex_before(s)
+    part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
     half = np.minimum((radii[k] + part * (radii[k + 1] - radii[k])) / 2, np.minimum(s - begin, end - s))
     wide = ((half > 0) & (share > 0) & (share < 1))[:, None]  # the ends stay
     mean = (up_to(s + half) - up_to(s - half)) / np.where(wide, 2 * half[:, None], 1)
-    ways = np.linalg.norm(np.diff(np.where(wide, mean, place), axis=0), axis=1)
+    ways = np.linalg.norm(np.diff(np.where(wide, mean, at(s, k)), axis=0), axis=1)
     ways = np.append(ways, 0.0)
     ways[np.cumsum(count) - 1] = 0
     return np.add.reduceat(ways, np.cumsum(count) - count)
@@ -174,6 +183,8 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
     >>> free_edges(flag).tolist()
     [3]
     """
+    if not len(skeleton.polygons):
+        return np.arange(len(skeleton.edges))
     n = len(skeleton.vertices)
     sides = skeleton.polygons.sides()
     key = np.sort(skeleton.edges, axis=1) @ np.array([n, 1])
@@ -184,7 +195,9 @@ def _sheet_of(skeleton: Skeleton):
     """For each vertex the sheet it is on, or -1, and the vertices of each sheet."""
     n = len(skeleton.vertices)
     node = np.full(n, -1)
+    if not len(skeleton.polygons):
+        return node, []
     _, label = components(n, skeleton.polygons.sides())
     on = np.unique(skeleton.polygons.corners)
     _, node[on] = np.unique(label[on], return_inverse=True)
-    return node, [np.flatnonzero(node == s) for s in range(node.max(initial=-1) + 1)]
+    return node, [np.flatnonzero(node == s) for s in range(node.max() + 1)]
