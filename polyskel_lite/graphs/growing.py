@@ -11,6 +11,7 @@ from ..errors import TessellationError
 from ..exact import whole_numbers
 from ..progress import Progress
 from .insertion import DEAD, ROWS, TWICE, loops
+from .tessellation import Tessellation
 
 #: From so many points on, compiling pays; from so many on, it pays to look whether that was done before.
 COMPILE_FROM, LOOK_FROM = 2_000, 200
@@ -174,6 +175,16 @@ class Growing:
         if self.dimension == 3:  # `turn_3d` calls those positive that the library calls negative
             table, across = table[:, [1, 0, 2, 3]], across[:, [1, 0, 2, 3]]
         return canonical(table, across)
+
+    def tessellation(self) -> Tessellation:
+        """The tessellation as it is now.
+
+        Examples
+        --------
+        >>> Growing(np.array([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)])).tessellation().circumcenters.tolist()
+        [[1.0, 1.0]]
+        """
+        return Tessellation.trusted(self.points, *self.simplices_and_neighbors())
 
     def _rows(self, flat) -> np.ndarray:
         rows, size = self._state[ROWS], self.dimension + 1

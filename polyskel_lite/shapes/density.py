@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..exact import locate, nearest_facets, nearest_on_facets
-from ..graphs import delaunay
+from ..graphs import delaunay, grown_from, preferring
 from .splitting import split_edges
 
 #: Samples are at most this share of the local width apart: then a ball through them is at most 1 % too large.
@@ -93,7 +93,9 @@ def local_width(boundary: np.ndarray, places: np.ndarray, normals: np.ndarray) -
 
 
 def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, floor: float | None):
-    """Points and facets of the same boundary with more samples, the given ones first; see `Shape.densify`.
+    """Points and facets of the same boundary with more samples, and their tessellation if it was needed.
+
+    The given ones come first; see `Shape.densify`.
 
     Examples
     --------
@@ -102,7 +104,7 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     16
     """
     if spacing is not None:
-        return _refined(points, facets, None, lambda _, __: spacing, parts=None)
+        return *_refined(points, facets, None, lambda _, __: spacing, parts=None), None
     boundary = points[facets]
     widths = _widths(boundary, boundary)
     most = MOST + 10 * len(points)
@@ -116,12 +118,18 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
         return SHARE * np.maximum(widths, least)
 
     points, facets = _refined(points, facets, boundary, wanted, parts=2)
+    if points.shape[1] == 3:
+        return points, facets, None
     # What is narrow between the places is shown by the balls of the samples.
-    while points.shape[1] == 2 and len(coarse := _coarse(boundary, points, facets, least)):
-        points, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
+    tessellation, growing = delaunay(points), None
+    while len(coarse := _coarse(boundary, tessellation, facets, least)):
+        more, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
         if not len(cut):
             break  # floats leave no room
-    return points, facets
+        growing = growing or grown_from(tessellation)
+        growing.add(more[len(points) :])
+        points, tessellation = more, growing.tessellation()
+    return points, facets, preferring(tessellation, facets)
 
 
 def _widths(boundary, pieces) -> np.ndarray:
@@ -156,10 +164,10 @@ def _refined(points, facets, boundary, wanted, parts):
     return points, facets
 
 
-def _coarse(boundary, points, facets, floor) -> np.ndarray:
+def _coarse(boundary, tessellation, facets, floor) -> np.ndarray:
     """Segments too long for a ball of the samples that they touch, or that reaches across them."""
-    pieces = points[facets]
-    centers = delaunay(points).circumcenters
+    pieces = tessellation.points[facets]
+    centers = tessellation.circumcenters
     centers = centers[np.isfinite(centers).all(axis=1)]
     centers = centers[locate(boundary, centers) > 0]
     distance, piece = nearest_facets(pieces, centers)
