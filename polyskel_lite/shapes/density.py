@@ -143,12 +143,14 @@ def _refined(points, facets, boundary, wanted, parts):
     """Cut facets longer than wanted, into `parts` or as many as that takes, until none is."""
     fresh, widths = np.arange(len(facets)), np.full(len(facets), np.nan)
     while len(fresh):
-        new = fresh[np.isnan(widths[fresh])]
-        if boundary is not None:
-            widths[new] = _widths(boundary, points[facets[new]]).min(axis=1)
         pieces = points[facets[fresh]]
         sides = np.linalg.norm(np.roll(pieces, -1, axis=1) - pieces, axis=2)
-        times = sides.max(axis=1) / wanted(widths[fresh], len(points))
+        longest = sides.max(axis=1)
+        # What is short enough for the least width need not know its own.
+        new = np.isnan(widths[fresh]) & (longest > wanted(0.0, len(points)))
+        if boundary is not None and new.any():
+            widths[fresh[new]] = _widths(boundary, pieces[new]).min(axis=1)
+        times = longest / wanted(np.nan_to_num(widths[fresh]), len(points))
         rows = times > 1 + 1e-9
         coarse, times, sides = fresh[rows], times[rows], sides[rows]
         if points.shape[1] == 3:
