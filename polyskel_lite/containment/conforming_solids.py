@@ -7,6 +7,7 @@ import numpy as np
 from ..checks import near
 from ..errors import ContourContainmentError, ShapeError
 from ..graphs import Tessellation, facet_rows, gabriel_mask, grown_from
+from ..progress import Progress
 from ..shapes import Shape, edge_keys, split_edges
 from .surface_edits import flip_toward
 
@@ -58,26 +59,28 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
     if not len(given):
         return shape
     growing = grown_from(shape.tessellation)
-    while True:
-        graph = _Graph(growing.tessellation(), to)
-        faces, _ = flip_toward(points, faces, graph.score)
-        missing = graph.missing(faces)
-        if not len(missing):
-            break
-        where = near(points[faces[missing[0]]])
-        if len(points) < limit:
-            points, faces = split_edges(points, faces, _to_halve(graph, points, faces[missing]))
-            growing.add(points[graph.n :])
-        if len(points) >= limit or len(points) == graph.n:
-            why = f"{limit} vertices" if len(points) >= limit else "edges too short to be halved"
-            flat = " or has right angles in a plane" if to == "gabriel" else ""
-            raise ContourContainmentError(
-                f"{len(given)} of {len(shape.facets)} faces (first: {given[0]}) are not in the {to} graph of "
-                f"the vertices, and with {why} {len(missing)} still are not, one near {where}: the surface "
-                f"is very near to itself, has a sharp edge{flat} there. Remesh it more evenly, widen it, or "
-                "raise the limit.",
-                given,
-            )
+    with Progress("conform, share of the limit", limit) as progress:
+        while True:
+            graph = _Graph(growing.tessellation(), to)
+            faces, _ = flip_toward(points, faces, graph.score)
+            missing = graph.missing(faces)
+            if not len(missing):
+                break
+            where = near(points[faces[missing[0]]])
+            if len(points) < limit:
+                points, faces = split_edges(points, faces, _to_halve(graph, points, faces[missing]))
+                growing.add(points[graph.n :])
+                progress.at(len(points))
+            if len(points) >= limit or len(points) == graph.n:
+                why = f"{limit} vertices" if len(points) >= limit else "edges too short to be halved"
+                flat = " or has right angles in a plane" if to == "gabriel" else ""
+                raise ContourContainmentError(
+                    f"{len(given)} of {len(shape.facets)} faces (first: {given[0]}) are not in the {to} graph of "
+                    f"the vertices, and with {why} {len(missing)} still are not, one near {where}: the surface "
+                    f"is very near to itself, has a sharp edge{flat} there. Remesh it more evenly, widen it, or "
+                    "raise the limit.",
+                    given,
+                )
     try:
         result = Shape.refined(faces, graph.tessellation)
     except ShapeError as error:
