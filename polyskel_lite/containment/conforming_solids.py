@@ -75,10 +75,10 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
                 why = f"{limit} vertices" if len(points) >= limit else "edges too short to be halved"
                 flat = " or has right angles in a plane" if to == "gabriel" else ""
                 raise ContourContainmentError(
-                    f"{len(given)} of {len(shape.facets)} faces (first: {given[0]}) are not in the {to} graph "
-                    f"of the vertices, and with {why} {len(missing)} still are not, one near {where}: the "
-                    f"surface is very near to itself, has a sharp edge{flat} there. Remesh it more evenly, widen "
-                    "it, or raise the limit.",
+                    f"{len(given)} of {len(shape.facets)} faces (first: {given[0]}) are not in the {to} "
+                    f"graph of the vertices, and with {why} {len(missing)} still are not, one near {where}: "
+                    f"the surface is very near to itself, has a sharp edge{flat} there. Remesh it more "
+                    "evenly, widen it, or raise the limit.",
                     given,
                 )
     try:
