@@ -27,7 +27,8 @@ from typing import NamedTuple
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-REPEATS, QUICK, PATIENCE = 5, 0.05, 240  # later calls; many more below so many seconds; enough after so many
+# Later calls; five times as many below so many seconds; no further call after so many seconds in all.
+REPEATS, QUICK, PATIENCE = 5, 0.05, 100
 LIMIT = 900  # seconds for one work, then it is stopped
 TRIES = ("first", "second")
 COLUMNS = (
