@@ -70,7 +70,7 @@ bench: $(VENV)/.installed  ## measure every stage against scipy's Delaunay, and 
 	@$(BIN)/python benchmarks/stages.py --largest $(LARGEST)
 	@$(BIN)/python benchmarks/targets.py $(if $(filter 200000,$(LARGEST)),,--largest $(LARGEST))
 
-fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each from SEED (twenty minutes)
+fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each from SEED (an hour)
 	@PYTHONPATH=tests $(BIN)/python -m fuzz --count $(COUNT) --seed $(SEED) --report benchmarks/fuzz.csv
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs

@@ -221,17 +221,22 @@ def main(arguments=None) -> None:
 
     rows, measured = [], commit(HERE)
     sizes_of = SIZES | {name: (len(psl.datasets.load(name).points),) for name in PAPER}
+    options.out.mkdir(parents=True, exist_ok=True)
     for name, sizes in sizes_of.items():
         for n in (size for size in sizes if size <= options.largest):
             for numba in (True, False):
                 rows += with_memory(name, n, numba, options.repeats)
                 print(f"{name}, n = {n:,}, {'with' if numba else 'without'} numba", flush=True)
-    options.out.mkdir(parents=True, exist_ok=True)
-    with open(options.out / "results.csv", "w", newline="", encoding="utf-8") as file:
+        write(options.out / "results.csv", rows)
+    note(options.out, "results.csv", measured)
+
+
+def write(path: Path, rows: list[dict]) -> None:
+    """Write what has been measured so far."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    note(options.out, "results.csv", measured)
 
 
 if __name__ == "__main__":
