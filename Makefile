@@ -23,8 +23,8 @@ $(VENV)/.installed: requirements.lock
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@$(BIN)/python -m pip install --disable-pip-version-check -qq --require-hashes -r requirements.lock
 	@$(BIN)/python -m pip install --disable-pip-version-check -qq --no-deps --no-build-isolation -e .
-	@echo "Compiling the loops of the Delaunay tessellation (once, half a minute) ..."
-	@$(BIN)/python -c 'from polyskel_lite.graphs import compile_loops; compile_loops(2); compile_loops(3)'
+	@echo "Compiling the loops of the library (once, half a minute) ..."
+	@$(BIN)/python -c 'from polyskel_lite.compiling import main; main()'
 	@touch $@
 
 book: $(VENV)/.installed  ## build the HTML book from book.toml and notebooks/

@@ -98,3 +98,16 @@ def _njit():
     from numba import njit
 
     return njit
+
+
+def main() -> None:
+    """Compile everything once, so that nobody waits for it later; it needs numba."""
+    import numpy as np
+
+    import polyskel_lite
+
+    for dimension in (2, 3):
+        points = np.random.default_rng(0).random((2_000, dimension))
+        tessellation = polyskel_lite.delaunay(points)
+        inner = np.ones(len(tessellation.simplices), dtype=bool)
+        polyskel_lite.hierarchy(polyskel_lite.DelaunayShape(tessellation, inner))

@@ -13,7 +13,7 @@ import numpy as np
 
 from .containment import conform, delaunay_shape
 from .errors import CoarseSamplingWarning, InputError
-from .shapes import Shape
+from .shapes import FLOOR, Shape
 from .simplification import STRATEGIES, Hierarchy, hierarchy
 from .skeletons import Branch, Skeleton, branch_rows
 
@@ -21,6 +21,9 @@ from .skeletons import Branch, Skeleton, branch_rows
 THRESHOLDS = {"branch": 3.0, "surface": np.pi / 3, "wireframe": 2 * np.pi}
 #: Radii that are farther from the truth than this are told.
 WORST = 1.05
+#: In space, where samples are dear, a mesh gets more of them only if a ball is farther off than this. A fine
+#: mesh of a round solid is nearer; with more samples it would only show the edges between its faces.
+COARSE = 1.25
 
 
 class Quality(NamedTuple):
@@ -29,7 +32,9 @@ class Quality(NamedTuple):
     Attributes
     ----------
     ratio : float
-        The largest radius over the true distance from its centre to the boundary; 1 is right.
+        The largest radius over the true distance from its centre to the boundary; 1 is right. Where samples
+        were added, balls below twice the floor of `Shape.densify` do not count: next to a corner or edge no
+        density of samples makes them right.
     added : int
         Samples that were added to the vertices given.
     """
@@ -50,12 +55,15 @@ class Bones:
         Of the refined shape: the skeletons at every threshold.
     threshold : float
         In radians.
+    densified : bool
+        Whether samples were added where the shape is narrow.
     """
 
     given: Shape
     refined: Shape
     hierarchy: Hierarchy
     threshold: float
+    densified: bool
 
     @cached_property
     def skeleton(self) -> Skeleton:
@@ -70,8 +78,10 @@ class Bones:
     @cached_property
     def quality(self) -> Quality:
         """How far its balls can be believed."""
-        true = self.given.boundary_distance(self.skeleton.vertices)
-        ratio = float((self.skeleton.radii / np.maximum(true, 1e-300)).max(initial=1.0))
+        radii = self.skeleton.radii
+        least = 2 * FLOOR[self.given.dimension] * radii.max(initial=0.0) if self.densified else 0.0
+        true = self.given.boundary_distance(self.skeleton.vertices[radii > least])
+        ratio = float((radii[radii > least] / np.maximum(true, 1e-300)).max(initial=1.0))
         return Quality(ratio, len(self.refined.points) - len(self.given.points))
 
 
@@ -93,7 +103,7 @@ def skeleton(
         See `hierarchy`.
     densify : bool
         Add samples where the shape is narrow (`Shape.densify`): without them, balls between the corners of a
-        few-sided shape are far too large.
+        few-sided shape are far too large. In space only if a ball is more than a quarter too large.
     **options
         For files: those of `polyskel_lite.files.read_file`.
 
@@ -129,9 +139,12 @@ def skeleton(
         strategy = STRATEGIES[given.dimension][0]
     if strategy not in THRESHOLDS:
         raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(THRESHOLDS)}.")
-    refined = conform(given.densify() if densify else given)
-    found = hierarchy(delaunay_shape(refined), strategy)
-    bones = Bones(given, refined, found, THRESHOLDS[strategy] if threshold is None else threshold)
+    threshold = THRESHOLDS[strategy] if threshold is None else threshold
+    bones = None
+    for denser in (False, True) if densify and given.dimension == 3 else (densify,):
+        if bones is None or bones.quality.ratio > COARSE:
+            refined = conform(given.densify() if denser else given)
+            bones = Bones(given, refined, hierarchy(delaunay_shape(refined), strategy), threshold, denser)
     if bones.quality.ratio > WORST:
         advice = "remesh it more finely" if densify else "let it be densified, or resample it"
         warnings.warn(

@@ -217,12 +217,10 @@ def _stages(shape: Shape, to: str, limit: int | None) -> Iterator[tuple[Stage, T
             there[cut] = False
             _update(there, points, facets, change)
         else:  # a diagonal of cocircular samples may be in another tessellation
-            tessellation = Tessellation(
-                points, *preferring(points, *growing.simplices_and_neighbors(), facets)
-            )
+            tessellation = preferring(growing.tessellation(), facets)
             there = _in_graph(tessellation, facets, to)
     if growing is not None and to == "gabriel":  # Gabriel facets are in every tessellation
-        tessellation = Tessellation(points, *growing.simplices_and_neighbors())
+        tessellation = growing.tessellation()
     yield Stage(points, facets, *np.zeros((2, 0), dtype=np.int64)), tessellation
 
 

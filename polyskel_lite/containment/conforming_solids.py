@@ -59,7 +59,7 @@ def conform_solid(shape: Shape, to: str = "delaunay", limit: int | None = None) 
         return shape
     growing = grown_from(shape.tessellation)
     while True:
-        graph = _Graph(Tessellation(points, *growing.simplices_and_neighbors()), to)
+        graph = _Graph(growing.tessellation(), to)
         faces, _ = flip_toward(points, faces, graph.score)
         missing = graph.missing(faces)
         if not len(missing):

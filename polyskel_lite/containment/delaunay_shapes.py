@@ -93,28 +93,24 @@ class DelaunayShape:
         >>> DelaunayShape(ears, np.ones(4, dtype=bool)).betti()
         (1, 0)
         """
-        t, corners = self.tessellation.simplices.shape
+        (t, _), n = self.tessellation.simplices.shape, len(self.tessellation.points)
         simplices = self.tessellation.simplices[self.inner]
-        pairs = np.unique(
-            np.sort(np.concatenate([simplices[:, [i, j]] for i in range(corners) for j in range(i)]), axis=1),
-            axis=0,
+        used = np.zeros(n, dtype=bool)
+        used[simplices] = True
+        spokes = np.stack(
+            [np.broadcast_to(simplices[:, :1], simplices[:, 1:].shape), simplices[:, 1:]], axis=2
         )
-        used, pairs = np.unique(pairs, return_inverse=True)
-        pairs = pairs.reshape(-1, 2)
-        b0 = components(len(used), pairs)[0]
+        b0 = components(n, spokes)[0] - int((~used).sum())
         # Alexander duality: cavities (holes in 2D) are the bounded components of the open complement.
         sides = self.tessellation.facet_table[1]
-        inside = np.append(self.inner, False)[sides]
-        free = sides[~inside.any(axis=1)]
-        outside = np.flatnonzero(~self.inner)
-        number = np.full(t + 1, -1)
-        number[outside] = np.arange(len(outside))
-        number[t] = len(outside)  # beyond the hull
-        cavities = components(len(outside) + 1, number[np.where(free < 0, t, free)])[0] - 1
+        inside = np.append(self.inner, False)[sides].any(axis=1)
+        # Every simplex inside is a component of its own here, and node t is what is beyond the hull.
+        free = sides[~inside]
+        cavities = components(t + 1, np.where(free < 0, t, free))[0] - len(simplices) - 1
         if self.dimension == 2:
             return b0, cavities
-        triangles = int(inside.any(axis=1).sum())
-        characteristic = len(used) - len(pairs) + triangles - len(simplices)
+        edges = len(self.tessellation.edges(self.inner))
+        characteristic = int(used.sum()) - edges + int(inside.sum()) - len(simplices)
         return b0, b0 + cavities - characteristic, cavities
 
     def is_gabriel(self, closed: bool = True) -> bool:
@@ -185,14 +181,20 @@ def delaunay_shape(shape: Shape) -> DelaunayShape:
             missing,
         )
     sides, apexes = tessellation.facet_table[1], tessellation.apexes()
-    t = len(tessellation.simplices)
-    wall = np.zeros(len(sides), dtype=bool)
-    wall[rows] = True
-    # Simplices connected without crossing the boundary are on one side of it; node t is the unbounded rest.
-    _, label = components(t + 1, np.where(sides < 0, t, sides)[~wall])
     turned = orientation(tessellation.points[np.column_stack([shape.facets, apexes[rows, 0]])])
-    inside = np.zeros(label.max() + 1, dtype=bool)
     # In 2D the inner apex is on the left of its segment, in 3D it is behind its outward triangle.
-    inner_side = np.where(turned > 0, 0, 1) if shape.dimension == 2 else np.where(turned < 0, 0, 1)
-    inside[label[sides[rows, inner_side]]] = True
-    return DelaunayShape(tessellation, inside[label[:t]])
+    first = turned > 0 if shape.dimension == 2 else turned < 0
+    # Labels (1 inside, -1 outside, 0 not known yet) spread from the boundary, which they do not cross.
+    label = np.zeros(len(tessellation.simplices) + 1, dtype=np.int8)
+    label[-1] = -1  # beyond the hull
+    label[sides[rows]] = np.where(first[:, None], [1, -1], [-1, 1])
+    free = np.ones(len(sides), dtype=bool)
+    free[rows] = False
+    a, b = sides[free].T
+    while True:
+        one, other = label[a], label[b]
+        open_ = np.flatnonzero((one == 0) | (other == 0))
+        if not len(open_):
+            return DelaunayShape(tessellation, label[:-1] > 0)
+        a, b, one, other = a[open_], b[open_], one[open_], other[open_]
+        label[a[other != 0]], label[b[one != 0]] = other[other != 0], one[one != 0]

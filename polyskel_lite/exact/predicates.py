@@ -29,14 +29,17 @@ def as_integers(*arrays: np.ndarray) -> list[np.ndarray]:
     >>> as_integers(np.array([0.5, 3.0]))[0].tolist()
     [1, 6]
     """
-    ratios = [[value.as_integer_ratio() for value in array.ravel().tolist()] for array in arrays]
-    common = max((d for ratio in ratios for _, d in ratio), default=1)
-    out = []
-    for array, ratio in zip(arrays, ratios, strict=True):
-        flat = np.empty(array.size, dtype=object)
-        flat[:] = [n * (common // d) for n, d in ratio]
-        out.append(flat.reshape(array.shape))
-    return out
+    mantissa, exponent = np.frexp(np.concatenate([array.ravel() for array in arrays]))
+    whole = np.ldexp(mantissa, 53).astype(np.int64)
+    # The exponent of the last binary digit; zero has none.
+    last = exponent - 54 + np.frexp((whole & -whole).astype(float))[1]
+    shift = np.where(whole == 0, 0, last - last[whole != 0].min(initial=0))
+    whole >>= np.where(whole == 0, 0, last - exponent + 53)
+    flat = whole.astype(object) << shift.astype(object)
+    return [
+        part.reshape(array.shape)
+        for part, array in zip(np.split(flat, np.cumsum([a.size for a in arrays])[:-1]), arrays, strict=True)
+    ]
 
 
 def _dot(u, v):
@@ -65,7 +68,10 @@ def _signs(differences: np.ndarray, polynomial, degree: int, terms: int, exact_r
     sign = np.sign(value).astype(np.int8)
     # In blocks, because one common denominator for a whole block keeps NumPy in charge of the loop.
     for block in np.array_split(rows, max(1, len(rows) // 4096)) if len(rows) else ():
-        exact = polynomial(exact_rows(block), -1)
+        numbers = exact_rows(block)
+        if int(np.abs(numbers).max()) ** degree * terms < 2**63:  # as on grids: NumPy's own integers hold all
+            numbers = numbers.astype(np.int64)
+        exact = polynomial(numbers, -1)
         sign[block] = [(v > 0) - (v < 0) for v in exact.tolist()]
     return sign
 

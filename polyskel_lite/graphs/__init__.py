@@ -4,8 +4,8 @@ In the room: `Tessellation`; the loops that insert points into one, exact and wi
 ties; the Gabriel graph. The Voronoi graph is the dual, and stands with the skeletons.
 """
 
+from .cocircular import preferring
 from .delaunay_graph import as_tessellation, delaunay, grown_from
 from .gabriel_graph import gabriel, gabriel_mask
-from .growing import Change, compile_loops, compiled_wanted
-from .tessellation import OPPOSITE, Tessellation, circumballs, facet_rows, ordinary
-from .triangulation import preferring
+from .growing import Change, compiled_wanted
+from .tessellation import OPPOSITE, Tessellation, circumballs, corners_of, facet_rows, in_blocks, ordinary

@@ -12,6 +12,29 @@ from heapq import heapify, heappop, heappush
 import numpy as np
 
 from ..exact import components, in_ball, in_gabriel_ball, orientation
+from .growing import Growing, canonical
+from .tessellation import Tessellation, facet_rows
+
+
+def preferring(tessellation: Tessellation, facets: np.ndarray) -> Tessellation:
+    """Of the tessellations of the same points one that has the facets, as far as its ties allow.
+
+    Examples
+    --------
+    >>> from polyskel_lite import delaunay
+    >>> preferring(delaunay([(0, 0), (1, 0), (1, 1), (0, 1)]), np.array([[1, 3]])).simplices.tolist()
+    [[0, 1, 3], [1, 2, 3]]
+    """
+    points, missing = tessellation.points, facet_rows(tessellation, facets) < 0
+    if not missing.any():
+        return tessellation
+    if tessellation.dimension == 2:
+        cut = with_segments(points, tessellation.simplices, tessellation.neighbors, facets, missing)
+        return Tessellation.trusted(points, *canonical(*cut))
+    ranks = cone_ranks(points, facets)
+    if not ranks.any():
+        return tessellation
+    return Tessellation.trusted(points, *Growing(points, ranks).simplices_and_neighbors())
 
 
 def with_segments(points: np.ndarray, simplices, neighbors, facets, missing):

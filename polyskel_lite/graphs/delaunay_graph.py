@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..checks import MOST_POINTS, as_indices, as_points
 from ..errors import InputError
+from .cocircular import preferring
 from .growing import Growing
 from .tessellation import Tessellation
 from .triangulation import triangulate
@@ -56,10 +57,14 @@ def delaunay(points, facets=None) -> Tessellation:
         raise InputError(f"there are {len(points):,} points, and {MOST_POINTS:,} are too many; thin them.")
     if facets is not None:
         facets = as_indices(facets, "facets", len(points), points.shape[1])
-    simplices, neighbors, growing = triangulate(points, facets)
-    tessellation = Tessellation(points, simplices, neighbors)
-    object.__setattr__(tessellation, "_growing", growing)
-    return tessellation
+    simplices, neighbors, growing = triangulate(points)
+    tessellation = Tessellation.trusted(points, simplices, neighbors)
+    tessellation.__dict__["_growing"] = growing
+    if facets is None:
+        return tessellation
+    preferred = preferring(tessellation, facets)
+    preferred.__dict__["_growing"] = growing  # it goes on without regard to facets
+    return preferred
 
 
 def grown_from(tessellation: Tessellation) -> Growing:

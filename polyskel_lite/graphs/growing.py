@@ -11,25 +11,13 @@ from ..errors import TessellationError
 from ..exact import whole_numbers
 from ..progress import Progress
 from .insertion import DEAD, ROWS, TWICE, loops
+from .tessellation import Tessellation
 
 #: From so many points on, compiling pays; from so many on, it pays to look whether that was done before.
 COMPILE_FROM, LOOK_FROM = 2_000, 200
 # Compiled loops insert so many points between two looks at the keyboard.
 _CHUNK = 20_000
 _used: set[int] = set()  # dimensions whose compiled loops are at hand in this process
-
-
-def compile_loops(dimension: int) -> None:
-    """Compile the loops for the plane or for space, or take them from numba's cache; needs numba.
-
-    Examples
-    --------
-    >>> compile_loops(2)
-    >>> compiled_wanted(3, 2)
-    True
-    """
-    loops.made(True, **_constants(dimension))
-    _used.add(dimension)
 
 
 def _constants(dimension):
@@ -47,9 +35,11 @@ def compiled_wanted(n: int, dimension: int, hard: bool = False) -> bool:
     >>> compiled_wanted(10, 2, hard=True) in (False, compiled_wanted(10, 2))
     True
     """
-    asked = dimension not in _used and n >= (LOOK_FROM if hard else COMPILE_FROM) and loops.can_compile()
-    if asked and (n >= COMPILE_FROM or loops.is_cached(**_constants(dimension))):
-        compile_loops(dimension)
+    if dimension in _used or n < (LOOK_FROM if hard else COMPILE_FROM) or not loops.can_compile():
+        return dimension in _used
+    if n >= COMPILE_FROM or loops.is_cached(**_constants(dimension)):
+        loops.made(True, **_constants(dimension))
+        _used.add(dimension)
     return dimension in _used
 
 
@@ -185,6 +175,16 @@ class Growing:
         if self.dimension == 3:  # `turn_3d` calls those positive that the library calls negative
             table, across = table[:, [1, 0, 2, 3]], across[:, [1, 0, 2, 3]]
         return canonical(table, across)
+
+    def tessellation(self) -> Tessellation:
+        """The tessellation as it is now.
+
+        Examples
+        --------
+        >>> Growing(np.array([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0)])).tessellation().circumcenters.tolist()
+        [[1.0, 1.0]]
+        """
+        return Tessellation.trusted(self.points, *self.simplices_and_neighbors())
 
     def _rows(self, flat) -> np.ndarray:
         rows, size = self._state[ROWS], self.dimension + 1

@@ -7,10 +7,13 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
+from scipy.sparse import coo_array, csr_array
 
 from ..checks import as_indices, as_points
 from ..errors import InputError
 from ..exact import as_integers, circumcenter_terms
+
+_BLOCK = 2**14
 
 #: By the number of corners: the facets opposite them, all seen from the same side in a positive simplex.
 OPPOSITE = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
@@ -54,17 +57,35 @@ class Tessellation:
         neighbors = as_indices(self.neighbors, "neighbors", len(simplices), corners, -1)
         if len(simplices) != len(neighbors) or not len(simplices):
             raise InputError(f"there are {len(neighbors)} rows of neighbors for {len(simplices)} simplices.")
-        t, side = np.nonzero(neighbors >= 0)
-        lonely = (neighbors[neighbors[t, side]] != t[:, None]).all(axis=1)
-        if lonely.any():
-            k = np.argmax(lonely)
+        row = np.arange(len(simplices))[:, None]
+        mutual = neighbors < 0
+        for column in neighbors.T.copy():
+            mutual |= column[neighbors] == row
+        if not mutual.all():
+            k, side = np.argwhere(~mutual)[0]
             raise InputError(
-                f"simplex {t[k]} has the neighbor {neighbors[t[k], side[k]]}, which has not {t[k]}; "
+                f"simplex {k} has the neighbor {neighbors[k, side]}, which has not {k}; "
                 "compute the tessellation again."
             )
+        self._keep(points, simplices, neighbors)
+
+    @classmethod
+    def trusted(cls, points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray) -> Tessellation:
+        """The same without a check or a copy, for arrays that the library has made itself.
+
+        Examples
+        --------
+        >>> nothing = np.full((1, 3), -1)
+        >>> Tessellation.trusted(np.eye(3, 2), np.array([(0, 1, 2)]), nothing).circumradii.round(3).tolist()
+        [0.707]
+        """
+        new = object.__new__(cls)
+        new._keep(points, simplices.astype(np.int64, copy=False), neighbors.astype(np.int64, copy=False))
+        return new
+
+    def _keep(self, points, simplices, neighbors):
         points.setflags(write=False)
-        for name, array in (("points", points), ("simplices", simplices), ("neighbors", neighbors)):
-            object.__setattr__(self, name, array)
+        self.__dict__.update(points=points, simplices=simplices, neighbors=neighbors)  # it is frozen
 
     @property
     def dimension(self) -> int:
@@ -74,9 +95,8 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        # Laid out so that each coordinate of all corners is contiguous: long loops for NumPy.
-        corners = np.take(scaled.points.T, scaled.simplices.T.astype(np.intp, copy=False), axis=1)
-        return tuple(np.ldexp(array, exponent) for array in _circumballs(corners.transpose(2, 1, 0)))
+        balls = in_blocks(lambda rows: _circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
+        return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
 
     @property
     def circumcenters(self) -> np.ndarray:
@@ -105,14 +125,15 @@ class Tessellation:
         ([[1, 2], [0, 2], [0, 1]], [[0, -1], [0, -1], [0, -1]])
         """
         t, corners = self.simplices.shape
-        first = np.repeat(np.arange(t), corners)
-        second = self.neighbors.ravel()
-        once = (second < 0) | (first < second)
-        opposite = np.tile(np.arange(corners), t)[once]
-        facets = np.sort(
-            np.take_along_axis(self.simplices[first[once]], OPPOSITE[corners][opposite], axis=1), axis=1
-        )
-        return facets, np.stack([first[once], second[once]], axis=1)
+        place = np.flatnonzero((self.neighbors < 0) | (np.arange(t)[:, None] < self.neighbors))
+        first, opposite = np.divmod(place, corners)
+        a, b, *c = (self.simplices.ravel()[corners * first + k[opposite]] for k in OPPOSITE[corners].T)
+        facets = np.empty((len(place), corners - 1), dtype=np.int64)
+        low, high = np.minimum(a, b), np.maximum(a, b)
+        facets[:, 0], facets[:, -1] = (np.minimum(low, *c), np.maximum(high, *c)) if c else (low, high)
+        if c:
+            facets[:, 1] = np.maximum(low, np.minimum(high, *c))
+        return facets, np.stack([first, self.neighbors.ravel()[place]], axis=1)
 
     def facets(self) -> np.ndarray:
         """The Delaunay segments (N = 2) or triangles (N = 3), each once, (m, N).
@@ -125,8 +146,8 @@ class Tessellation:
         """
         return self.facet_table[0]
 
-    def edges(self) -> np.ndarray:
-        """The Delaunay segments, each once, (m, 2), in increasing order.
+    def edges(self, rows=slice(None)) -> np.ndarray:
+        """The Delaunay segments, each once, (m, 2), in increasing order; of all simplices or some rows.
 
         Examples
         --------
@@ -134,9 +155,10 @@ class Tessellation:
         >>> delaunay([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).edges().shape
         (6, 2)
         """
-        corners = self.simplices.shape[1]
-        pairs = [self.simplices[:, [i, j]] for i in range(corners) for j in range(i)]
-        return np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
+        n, columns = len(self.points), self.simplices[rows].T.copy()
+        pairs = [(a, b) for k, a in enumerate(columns) for b in columns[:k]]
+        keys = np.sort(np.concatenate([np.minimum(a, b) * n + np.maximum(a, b) for a, b in pairs]))
+        return np.stack(np.divmod(keys[np.diff(keys, prepend=-1) > 0], n), axis=1)
 
     def apexes(self) -> np.ndarray:
         """The vertices that complete each facet of `facet_table` to its two simplices, (m, 2), -1 for none.
@@ -153,8 +175,48 @@ class Tessellation:
     def _apexes(self) -> np.ndarray:
         facets, sides = self.facet_table
         # A simplex's vertices sum up to its facet's vertices plus the apex.
-        apex = self.simplices.sum(axis=1)[sides] - facets.sum(axis=1)[:, None]
-        return np.where(sides >= 0, apex, -1)
+        whole, part = sum(self.simplices.T), sum(facets.T)
+        return np.where(sides >= 0, whole[sides] - part[:, None], -1)
+
+    @cached_property
+    def _rows(self) -> csr_array:
+        """One more than the row of each facet, by its first vertex and the others as one number."""
+        first, rest = _halves(self.facets(), len(self.points))
+        shape = len(self.points), len(self.points) ** (self.dimension - 1)
+        table = coo_array((np.arange(1, len(first) + 1), (first, rest)), shape=shape)
+        table.has_canonical_format = True  # no facet is there twice: nothing to sort or to add
+        return table.tocsr()
+
+
+def _halves(facets, n):
+    # n**2 fits in 63 bits for two million points, and a row of a sparse matrix is found without sorting.
+    return facets[:, 0], facets[:, 1] if facets.shape[1] == 2 else facets[:, 1] * n + facets[:, 2]
+
+
+def corners_of(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
+    """The corners of simplices, (t, N+1, N), so that each coordinate of all corners is contiguous.
+
+    Examples
+    --------
+    >>> from polyskel_lite import delaunay
+    >>> corners_of(delaunay([(0, 0), (1, 0), (0, 1)])).tolist()
+    [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
+    """
+    simplices = tessellation.simplices[rows].T.astype(np.intp, copy=False)
+    return np.take(tessellation.points.T, simplices, axis=1).transpose(2, 1, 0)
+
+
+def in_blocks(function, rows: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The arrays that a function makes of some rows, computed in blocks that stay in the processor's cache.
+
+    Examples
+    --------
+    >>> in_blocks(lambda rows: (rows**2,), np.arange(4))[0].tolist()
+    [0, 1, 4, 9]
+    """
+    blocks = [function(rows[k : k + _BLOCK]) for k in range(0, max(len(rows), 1), _BLOCK)]
+    # In the order of C, whatever that of the blocks.
+    return tuple(np.ascontiguousarray(np.concatenate(parts)) for parts in zip(*blocks, strict=True))
 
 
 def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
@@ -173,7 +235,7 @@ def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
     if abs(exponent) <= 200:
         return tessellation, 0
     points = np.ldexp(tessellation.points, -exponent)
-    return Tessellation(points, tessellation.simplices, tessellation.neighbors), exponent
+    return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors), exponent
 
 
 def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -196,23 +258,24 @@ def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _circumballs(simplices):
     """Centers, radii, and a bound on the error of each center."""
-    base, d = simplices[:, 0], simplices[:, 1:] - simplices[:, :1]
+    corners = simplices.transpose(2, 1, 0)  # of which, by `corners_of`, each coordinate is contiguous
+    d = corners[:, 1:] - corners[:, :1]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):
-        twice, numerator = circumcenter_terms(d)
-        sides = np.sqrt((d**2).sum(axis=2))
-        size = sides.prod(axis=1)
-        offset = np.where(twice[:, None] != 0, numerator / twice[:, None], np.inf)
+        twice, numerator = circumcenter_terms(d.transpose(2, 1, 0))
+        sides = np.sqrt((d * d).sum(axis=0))
+        size = sides.prod(axis=0)
+        offset = np.where(twice != 0, numerator.T / twice, np.inf)
         # Thin simplices: rounding would move, or lose, their centre. Integers do not round.
         thin = np.flatnonzero(~(np.abs(twice) > 1e-6 * size))
         for k in thin:
-            offset[k] = _exact_offset(simplices[k])
-        centers, radii = base + offset, np.sqrt((offset**2).sum(axis=1))
+            offset[:, k] = _exact_offset(simplices[k])
+        centers, radii = corners[:, 0] + offset, np.sqrt((offset**2).sum(axis=0))
         # Numerator and denominator are sums of products that are at most ``size`` (times a length): each is
         # rounded fewer than 64 times. The exact ones are rounded once. Then the base is added.
-        error = 64 * 2.0**-53 * (sides.max(axis=1) + radii) * size / np.abs(twice)
+        error = 64 * 2.0**-53 * (sides.max(axis=0) + radii) * size / np.abs(twice)
         error[thin] = 0
-        error += 4 * 2.0**-53 * (np.abs(centers).max(axis=1) + radii)
-        return centers, radii, error
+        error += 4 * 2.0**-53 * (np.abs(centers).max(axis=0) + radii)
+        return np.ascontiguousarray(centers.T), radii, error
 
 
 def _exact_offset(simplex):
@@ -234,17 +297,7 @@ def facet_rows(tessellation: Tessellation, facets: np.ndarray) -> np.ndarray:
     >>> facet_rows(delaunay([(0, 0), (4, 0), (4, 1), (0, 1), (2, 3)]), np.array([[1, 0], [0, 4]])).tolist()[1]
     -1
     """
-    n = len(tessellation.points)
-
-    def keys(rows):
-        rows = np.sort(np.asarray(rows, dtype=np.int64), axis=1)
-        # n**3 fits in 63 bits for two million points.
-        return (rows * n ** np.arange(rows.shape[1])[::-1]).sum(axis=1)
-
-    table = keys(tessellation.facets())
-    order = np.argsort(table)
-    wanted = keys(facets)
-    at = np.searchsorted(table[order], wanted)
-    at[at == len(table)] = 0
-    row = order[at]
-    return np.where(table[row] == wanted, row, -1)
+    facets = np.sort(np.asarray(facets, dtype=np.int64), axis=1)
+    if not len(facets):
+        return np.zeros(0, dtype=np.int64)
+    return tessellation._rows[_halves(facets, len(tessellation.points))].astype(np.int64) - 1

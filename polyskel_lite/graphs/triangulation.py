@@ -7,16 +7,15 @@ from scipy.spatial import Delaunay, QhullError
 
 from ..errors import TessellationError
 from ..exact import in_ball, orientation
-from .cocircular import cone_ranks, with_segments
 from .growing import Growing, canonical, compiled_wanted
 from .tessellation import OPPOSITE
 
 
-def triangulate(points: np.ndarray, facets: np.ndarray | None = None):
-    """Simplices (t, N+1), positively oriented, neighbors (t, N+1), and what can grow or None; exact.
+def triangulate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, Growing | None]:
+    """Simplices (t, N+1), positively oriented, and neighbors (t, N+1) of points, exact.
 
-    They depend on the points, and on the facets, only: see `polyskel_lite.graphs.insertion` for ties. The
-    third one is the `Growing` that they were read off, if that was needed; without regard to the facets.
+    They depend on the points only: see `polyskel_lite.graphs.insertion` for ties. The third is the `Growing`
+    that they were read off, if that was needed.
 
     Raises
     ------
@@ -37,38 +36,7 @@ def triangulate(points: np.ndarray, facets: np.ndarray | None = None):
     if found is None:
         growing = Growing(points)
         found = growing.simplices_and_neighbors()
-    if facets is not None:
-        found = preferring(points, *found, facets)
     return *found, growing
-
-
-def preferring(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, facets: np.ndarray):
-    """Of the tessellations of these points one that has the facets, as far as its ties allow.
-
-    Examples
-    --------
-    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    >>> preferring(square, *triangulate(square)[:2], np.array([[1, 3]]))[0].tolist()
-    [[0, 1, 3], [1, 2, 3]]
-    """
-    missing = ~_has(simplices, facets, len(points))
-    if not missing.any():
-        return simplices, neighbors
-    if points.shape[1] == 2:
-        return canonical(*with_segments(points, simplices, neighbors, facets, missing))
-    ranks = cone_ranks(points, facets)
-    return Growing(points, ranks).simplices_and_neighbors() if ranks.any() else (simplices, neighbors)
-
-
-def _has(simplices, facets, n) -> np.ndarray:
-    """Whether each facet is one of a simplex."""
-    size = simplices.shape[1]
-    weights = n ** np.arange(size - 1)  # n**3 fits in 63 bits for two million points
-    there = np.sort(
-        np.concatenate([np.sort(simplices[:, side], axis=1) @ weights for side in OPPOSITE[size]])
-    )
-    wanted = np.sort(facets, axis=1) @ weights
-    return there[np.searchsorted(there, wanted).clip(max=len(there) - 1)] == wanted
 
 
 def _qhull(points):

@@ -134,10 +134,8 @@ def sk2_conditions(shape, E=None) -> Sk2Conditions:
 
 
 def _leaving(shape, t, skeleton) -> np.ndarray:
-    kept = np.zeros(len(t.simplices) + 1, dtype=bool)
-    kept[skeleton.simplices] = True
     sides = t.facet_table[1]
-    both = np.sort(sides[kept[sides].all(axis=1)], axis=1)
+    both = np.sort(sides[np.isin(sides, skeleton.simplices).all(axis=1)], axis=1)
     whole = sk2(shape, t)
     stay = np.sort(whole.simplices[whole.edges], axis=1)
     n = len(t.simplices)

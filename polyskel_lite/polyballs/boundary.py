@@ -8,7 +8,7 @@ import numpy as np
 
 from ..checks import as_points
 from ..errors import InputError
-from .discs import Arcs, distance_to_arcs
+from .discs import Arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
 from .union import BallUnion
@@ -281,11 +281,7 @@ class BallBoundary:
         places = self.in_unit(queries) - union.origin
         near = np.abs(places).max(axis=1, initial=0) < _FAR
         distance = np.hypot.reduce(queries, axis=1)
-        if union.in_space:
-            distance[near] = self.from_unit(distance_to_boundary(places[near], union))
-        else:
-            arcs = distance_to_arcs(places[near], union.centers, union.radii, union.boundary.arcs)
-            distance[near] = self.from_unit(arcs)
+        distance[near] = self.from_unit(distance_to_boundary(places[near], union))
         return distance
 
     def area(self) -> float:

@@ -3,7 +3,8 @@
 Delaunay discs are the hard case, not the easy one: many circles pass through the same sample,
 neighbouring circles nearly coincide when four samples are cocircular, and rounded centres and radii
 keep none of this exactly. So each crossing of two circles carries the length by which rounding may
-have moved it, and two crossings no further apart than their two lengths count as one.
+have moved it, and two crossings no further apart than their two lengths count as one. In space the
+circles in which spheres cross are cut into arcs in the same way (`spheres`).
 """
 
 from __future__ import annotations
@@ -11,23 +12,21 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from .incidence import contacts, merged
-from .pairs import PRECISION, ROUNDING, WORST, lengths, meeting_pairs, relations, rounding
+from .pairs import PRECISION, ROUNDING, WORST, crossings, frames, lengths, meeting_pairs, relations, rounding
 from .power import PowerTriangulation
 
 TURN = 2 * np.pi
-_CHUNK = 2_000_000  # point-arc pairs looked at together: bounds the memory, not the result
 
 
 class Arcs(NamedTuple):
-    """Arcs of the boundary of a union of discs, counter-clockwise (the union on their left).
+    """Arcs of circles on the boundary, counter-clockwise (in the plane the union is on their left).
 
     Attributes
     ----------
     ball : (a,) int array
-        The disc on whose circle the arc lies.
+        The disc on whose circle the arc lies; in space the row of the circle.
     start, end : (a,) float arrays
         Angles in radians, -π <= start < π and start < end <= start + 2π; equal for a whole circle.
     """
@@ -66,29 +65,98 @@ class Covers(NamedTuple):
         return cls(ball, np.arctan2(y, x) - half, 2 * half, error)
 
 
-def ends_of(arcs: Arcs, errors: np.ndarray, radii: np.ndarray, points) -> tuple[np.ndarray, np.ndarray]:
+class Circles(NamedTuple):
+    """Circles on which arcs of the boundary lie: those of discs, or those in which two spheres cross.
+
+    Attributes
+    ----------
+    pairs : (m, 2) int array
+        The two balls, i < j; of a disc its own number, twice.
+    centers : (m, N) float array
+    radii : (m,) float array
+    frames : (m, N, N) float array
+        Rows: two unit vectors in the plane of the circle, from which angles count; its axis from i to j.
+    """
+
+    pairs: np.ndarray
+    centers: np.ndarray
+    radii: np.ndarray
+    frames: np.ndarray
+
+    @classmethod
+    def between(cls, centers, radii, pairs) -> Circles:
+        """Those in which the spheres of crossing pairs of balls meet.
+
+        Examples
+        --------
+        >>> balls = np.array([(0.0, 0, 0), (1, 0, 0)]), np.ones(2), np.array([(0, 1)])
+        >>> Circles.between(*balls).centers.tolist()
+        [[0.5, 0.0, 0.0]]
+        """
+        middles, sizes, axes = crossings(centers, radii, pairs)
+        return cls(pairs, middles, sizes, frames(axes))
+
+    def points(self, circle: np.ndarray, angle: np.ndarray) -> np.ndarray:
+        """Points at given angles on given circles, (m, N).
+
+        Examples
+        --------
+        >>> unit = Circles(np.array([[0, 1]]), np.zeros((1, 3)), np.ones(1), np.eye(3)[None])
+        >>> unit.points(np.array([0]), np.array([np.pi])).round(3).tolist()
+        [[-1.0, 0.0, 0.0]]
+        """
+        x, y = self.frames[circle, 0], self.frames[circle, 1]
+        swing = np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y
+        return self.centers[circle] + self.radii[circle, None] * swing
+
+
+class Boundary(NamedTuple):
+    """What is on the boundary of a union of balls.
+
+    Attributes
+    ----------
+    exposed : (k,) bool array
+        Balls with a piece of their sphere on the boundary.
+    circles : Circles
+        In the plane of all discs, in space those with an arc on the boundary.
+    arcs : Arcs
+        The arcs of the boundary; ``ball`` is the row of the circle.
+    corners : (s, N) float array
+        The singular points: ends of arcs, and in the plane points where discs touch.
+    touching : (q, 2) int array
+        Balls that touch from outside in a point of the boundary.
+    sound : bool
+        Whether the arcs close up; not so where too many balls nearly coincide for floating-point numbers.
+    """
+
+    exposed: np.ndarray
+    circles: Circles
+    arcs: Arcs
+    corners: np.ndarray
+    touching: np.ndarray
+    sound: bool = True
+
+
+def ends_of(arcs: Arcs, errors: np.ndarray, circles: Circles) -> tuple[np.ndarray, np.ndarray]:
     """Where arcs that are not whole circles start and end, and by how much each end may be off, a length.
 
     Parameters
     ----------
     arcs, errors
         As `uncovered` returns them.
-    radii : (k,) float array
-        Of the circles.
-    points : callable
-        ``(circles, angles) -> (m, N) float array``, places on circles.
+    circles : Circles
 
     Examples
     --------
     >>> half = Arcs(np.array([0]), np.zeros(1), np.array([np.pi]))
-    >>> ends_of(half, np.zeros((2, 1)), np.ones(1), lambda _, angle: np.cos(angle)[:, None])[0].tolist()
-    [[1.0], [-1.0]]
+    >>> circle = Circles(np.array([[0, 0]]), np.zeros((1, 2)), np.ones(1), np.eye(2)[None])
+    >>> ends_of(half, np.zeros((2, 1)), circle)[0].round(6).tolist()
+    [[1.0, 0.0], [-1.0, 0.0]]
     """
     part = ~arcs.whole
     circle = np.tile(arcs.ball[part], 2)
-    ends = points(circle, np.concatenate([arcs.start[part], arcs.end[part]]))
-    slack = errors[:, part].ravel() * radii[circle]
-    return ends, slack + ROUNDING * (np.abs(ends).max(axis=1, initial=0) + radii[circle])
+    ends, size = circles.points(circle, np.append(arcs.start[part], arcs.end[part])), circles.radii[circle]
+    return ends, errors[:, part].ravel() * size + ROUNDING * (np.abs(ends).max(axis=1, initial=0) + size)
 
 
 def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
@@ -111,15 +179,12 @@ def uncovered(covers: Covers, kept: np.ndarray) -> tuple[Arcs, np.ndarray]:
     gap = (ball[1:] == ball[:-1]) & ((start - error)[1:] > (end + error)[furthest])
     before, after = furthest[gap], np.flatnonzero(gap) + 1
     first = _wrapped(origin[before] + end[before])
-    none = np.zeros(len(whole))
-    arcs = Arcs(
-        np.concatenate([ball[before], whole]),
-        np.concatenate([first, none - np.pi]),
-        np.concatenate([first + (start[after] - end[before]), none + np.pi]),
-    )
-    errors = np.array([np.concatenate([error[before], none]), np.concatenate([error[after], none])])
-    order = np.lexsort((arcs.start, arcs.ball))
-    return Arcs(*(values[order] for values in arcs)), errors[:, order]
+    found = np.array([first, first + (start[after] - end[before]), error[before], error[after]])
+    whole_turns = np.tile([[-np.pi], [np.pi], [0], [0]], len(whole))
+    ball, found = np.append(ball[before], whole), np.concatenate([found, whole_turns], axis=1)
+    order = np.lexsort((found[0], ball))
+    start, end, *errors = found[:, order]
+    return Arcs(ball[order], start, end), np.array(errors)
 
 
 def _unrolled(covers: Covers) -> tuple[np.ndarray, ...]:
@@ -150,26 +215,7 @@ def _wrapped(angle: np.ndarray) -> np.ndarray:
     return np.where(turned >= np.pi, -np.pi, turned)
 
 
-class DiscBoundary(NamedTuple):
-    """What `disc_boundary` returns.
-
-    Attributes
-    ----------
-    arcs : Arcs
-    corners : (s, 2) float array
-        Points of the boundary on two or more circles.
-    touching : (q, 2) int array
-        Discs that touch from outside in a point of the boundary.
-    """
-
-    arcs: Arcs
-    corners: np.ndarray
-    touching: np.ndarray
-
-
-def disc_boundary(
-    centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation | None = None
-) -> DiscBoundary:
+def disc_boundary(centers, radii, power: PowerTriangulation | None = None) -> Boundary:
     """Find the arcs of the boundary of a union of closed discs, and the points where circles meet on it.
 
     Discs in a larger disc have no arc; of equal discs the first has them all. Where two discs touch
@@ -185,70 +231,29 @@ def disc_boundary(
 
     Returns
     -------
-    DiscBoundary
+    Boundary
 
     Examples
     --------
     >>> centers, radii = np.array([(0.0, 0.0), (1.0, 0.0), (0.1, 0.0)]), np.array([1, 1, 0.2])
-    >>> arcs, corners, _ = disc_boundary(centers, radii)
+    >>> found = disc_boundary(centers, radii)
+    >>> arcs = found.arcs
     >>> arcs.ball, np.degrees(arcs.start).round(), np.degrees(arcs.end).round()
     (array([0, 1]), array([  60., -120.]), array([300., 120.]))
-    >>> sorted(corners.round(3).tolist())
+    >>> sorted(found.corners.round(3).tolist())
     [[0.5, -0.866], [0.5, 0.866]]
     """
+    row = np.arange(len(radii))
+    circles = Circles(np.column_stack([row, row]), centers, radii, np.tile(np.eye(2), (len(row), 1, 1)))
     i, j = meeting_pairs(centers, radii) if power is None else power.faces(2).T
     gone, crossing, touching = relations(centers, radii, i, j)
     if power is not None:
-        gone |= ~np.isin(np.arange(len(radii)), power.faces(1))
+        gone |= ~np.isin(row, power.faces(1))
     arcs, errors = uncovered(_covers(centers, radii, *crossing.T), np.flatnonzero(~gone))
-    ends, slack = ends_of(arcs, errors, radii, lambda *places: _on_circles(centers, radii, *places))
+    ends, slack = ends_of(arcs, errors, circles)
     touching, points = contacts(centers, radii, touching)
     corners = merged(np.concatenate([ends, points]), np.append(slack, np.zeros(len(points))))
-    return DiscBoundary(arcs, corners, touching)
-
-
-def distance_to_arcs(queries: np.ndarray, centers: np.ndarray, radii: np.ndarray, arcs: Arcs) -> np.ndarray:
-    """Measure the distance from points to the nearest arc, exact to rounding.
-
-    Parameters
-    ----------
-    queries : (k, 2) float array
-    centers, radii, arcs
-        As given to and got from `disc_boundary`.
-
-    Returns
-    -------
-    (k,) float array
-
-    Examples
-    --------
-    >>> centers, radii = np.array([(0.0, 0.0), (1.0, 0.0)]), np.array([1.0, 1.0])
-    >>> arcs = disc_boundary(centers, radii).arcs
-    >>> distance_to_arcs(np.array([(0.5, 0.0), (-3.0, 0.0)]), centers, radii, arcs)
-    array([0.8660254, 2.       ])
-    """
-    ball, start, end = arcs
-    ends = _on_circles(centers, radii, np.tile(ball, 2), np.concatenate([start, end]))
-    distance = cKDTree(ends).query(queries)[0]
-    middle = (start + end) / 2
-    axis = np.stack([np.cos(middle), np.sin(middle)], axis=1)
-    # A whole circle accepts every direction, whatever the rounding of cos(π).
-    reach = np.where(arcs.whole, -2.0, np.cos((end - start) / 2))
-    step = max(1, _CHUNK // len(ball))
-    for first in range(0, len(queries), step):
-        rows = slice(first, first + step)
-        x = queries[rows, None, 0] - centers[ball, 0]
-        y = queries[rows, None, 1] - centers[ball, 1]
-        far = np.hypot(x, y)
-        # An arc's nearest point lies straight ahead of the centre if the arc reaches there, else at an end.
-        ahead = x * axis[:, 0] + y * axis[:, 1] >= far * reach
-        gap = np.where(ahead, np.abs(far - radii[ball]), np.inf).min(axis=1)
-        distance[rows] = np.minimum(distance[rows], gap)
-    return distance
-
-
-def _on_circles(centers, radii, ball, angle) -> np.ndarray:
-    return centers[ball] + radii[ball, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return Boundary(np.isin(row, arcs.ball), circles, arcs, corners, touching)
 
 
 def _covers(centers, radii, i, j) -> Covers:

@@ -1,18 +1,19 @@
-"""Distance from points to the boundary of a union of balls in space, exact to rounding.
+"""Distance from points to the boundary of a union of balls, exact to rounding.
 
-Outside, it is the distance to the nearest ball. Inside, the nearest point of the boundary is straight ahead
-of a centre on a patch of its sphere, or straight ahead of the middle of a circle on one of its arcs, or the
-end of an arc. Arcs and spheres that are farther than the best point found so far are never looked at.
+In the plane all arcs are asked. In space, it is the distance to the nearest ball outside; inside, the nearest
+point of the boundary is straight ahead of a centre on a patch of its sphere, or straight ahead of the middle
+of a circle on one of its arcs, or the end of an arc. Arcs and spheres that are farther than the best point
+found so far are never looked at.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
 
-from .discs import TURN, Arcs
+from .discs import TURN, Boundary
 from .pairs import octaves, rounding, spread_out
-from .spheres import SphereBoundary
 from .union import BallUnion
 
 _CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
@@ -25,7 +26,7 @@ def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
 
     Parameters
     ----------
-    queries : (m, 3) float array
+    queries : (m, N) float array
         Seen from the origin of the union.
     union : BallUnion
 
@@ -43,6 +44,8 @@ def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
     >>> distance_to_boundary(queries, two).round(4).tolist()
     [0.866, 1.0, 0.3, 1.0]
     """
+    if not union.in_space:
+        return _to_plane_arcs(queries, union)
     distance = _to_balls(queries, union.centers, union.radii)
     # A point on many spheres that surround it is in no open ball, but inside the union all the same.
     believed = _BELIEVED * (np.abs(union.centers).max() + union.radii.max())
@@ -55,27 +58,40 @@ def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
     return distance
 
 
-def _to_balls(queries, centers, radii) -> np.ndarray:
+def _to_plane_arcs(points, union: BallUnion) -> np.ndarray:
+    """Distance to the nearest arc in the plane."""
+    circles, arcs = union.boundary.circles, union.boundary.arcs
+    ball, start, end = arcs
+    distance = cKDTree(circles.points(np.tile(ball, 2), np.append(start, end))).query(points)[0]
+    (x, y), middle = circles.centers[ball].T, (start + end) / 2
+    # A whole circle accepts every direction, whatever the rounding of cos(π).
+    reach = np.where(arcs.whole, -2.0, np.cos((end - start) / 2))
+    for rows in _chunks(len(points), len(ball)):
+        across, up = points[rows, None, 0] - x, points[rows, None, 1] - y
+        far = np.hypot(across, up)
+        # An arc's nearest point lies straight ahead of the centre if the arc reaches there, else at an end.
+        ahead = across * np.cos(middle) + up * np.sin(middle) >= far * reach
+        gap = np.where(ahead, np.abs(far - circles.radii[ball]), np.inf).min(axis=1)
+        distance[rows] = np.minimum(distance[rows], gap)
+    return distance
+
+
+def _to_balls(points, centers, radii) -> np.ndarray:
     """Distance to the nearest ball, negative inside."""
-    nearest = np.empty(len(queries))
-    step = max(1, _CHUNK // len(radii))
-    for first in range(0, len(queries), step):
-        rows = slice(first, first + step)
-        nearest[rows] = (_lengths(queries[rows], centers) - radii).min(axis=1)
-    return nearest
+    parts = _chunks(len(points), len(radii))
+    return np.concatenate([(cdist(points[rows], centers) - radii).min(axis=1) for rows in parts])
 
 
-def _lengths(points, centers) -> np.ndarray:
-    """Distances of all points from all centres, (m, k), without the cancellation of |p|² - 2 p·c + c²."""
-    return np.sqrt(sum((points[:, None, axis] - centers[:, axis]) ** 2 for axis in range(3)))
+def _chunks(count: int, width: int) -> list[slice]:
+    """Rows of a table in parts that a cache holds."""
+    step = max(1, _CHUNK // width)
+    return [slice(first, first + step) for first in range(0, max(1, count), step)]
 
 
-def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
+def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     """Distance to the nearest arc, ends included; infinite if there is none."""
     circles, arcs = boundary.circles, boundary.arcs
     row, start, end = arcs
-    if not len(row):
-        return np.full(len(points), np.inf)
     size = np.ceil((end - start) / _PIECE).astype(np.intp)
     arc, number = spread_out(size)
     half = ((end - start) / size / 2)[arc]
@@ -88,23 +104,16 @@ def _to_arcs(points, boundary: SphereBoundary) -> np.ndarray:
     for group in octaves(reach):
         near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
-        if not len(point):
-            continue
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
         pairs = np.unique(point * len(row) + arc[piece])
         point, found = pairs // len(row), pairs % len(row)
-        gap = _ahead(points[point], circles, Arcs(*(values[found] for values in arcs)))
-        np.minimum.at(best, point, gap)
+        # The nearest point of the circle is straight ahead of its middle; it counts if it is on the arc.
+        seen = points[point] - circles.centers[row[found]]
+        x, y, z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
+        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
+        gap = np.hypot(z, np.hypot(x, y) - circles.radii[row[found]])
+        np.minimum.at(best, point[on], gap[on])
     return best
-
-
-def _ahead(points, circles, arcs: Arcs) -> np.ndarray:
-    """Distance to the point of the circle straight ahead of its middle, infinite if it is not on the arc."""
-    circle, start, end = arcs
-    x, y, z = np.einsum("mck,mk->cm", circles.frames[circle], points - circles.centers[circle])
-    turn = np.arctan2(y, x) - start
-    on = arcs.whole | (turn % TURN <= end - start)
-    return np.where(on, np.hypot(z, np.hypot(x, y) - circles.radii[circle]), np.inf)
 
 
 def _to_patches(points, union: BallUnion, best) -> None:
@@ -114,16 +123,15 @@ def _to_patches(points, union: BallUnion, best) -> None:
     size = np.diff(covered.first)
     # A foot on the edge of a cap is left to the arc there, if there is one: where many edges meet in a point
     # that they surround, there is none.
-    ball = spread_out(size)[0]
     edge = _BELIEVED * np.sqrt(np.maximum(1 - covered.heights**2, 0))
-    heights = covered.heights - edge - rounding(centers, radii, ball, ball) / radii[ball]
-    step = max(1, _CHUNK // len(balls))
-    for first in range(0, len(points), step):
-        far = _lengths(points[first : first + step], centers[balls])
+    at = covered.ball
+    heights = covered.heights - edge - rounding(centers, radii, at, at) / radii[at]
+    for rows in _chunks(len(points), len(balls)):
+        far = cdist(points[rows], centers[balls])
         gap = np.abs(far - radii[balls])
-        row, column = np.nonzero(gap < best[first : first + step, None])
+        row, column = np.nonzero(gap < best[rows, None])
         far, gap = far[row, column], gap[row, column]
-        point, ball = first + row, balls[column]
+        point, ball = rows.start + row, balls[column]
         rank = 0
         while len(point):
             free = size[ball] <= rank

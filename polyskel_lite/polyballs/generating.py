@@ -22,8 +22,7 @@ def distinct(centers: np.ndarray, radii: np.ndarray) -> np.ndarray:
     >>> distinct(np.array([(0.0, 0), (1, 0), (0, 0), (0, 0)]), np.array([1, 1, 1, 2])).tolist()
     [0, 1, 3]
     """
-    first = np.unique(np.column_stack([centers, radii]), axis=0, return_index=True)[1]
-    first.sort()
+    first = np.sort(np.unique(np.column_stack([centers, radii]), axis=0, return_index=True)[1])
     centers, radii = centers[first], radii[first]
     size = np.abs(centers).max(axis=1) + radii
     i, j = cKDTree(centers).query_pairs(1e-12 * size.max(), output_type="ndarray").T
@@ -114,10 +113,8 @@ def lonely(centers, radii) -> np.ndarray:
     [2]
     """
     i, j = meeting_pairs(centers, radii)
-    apart = gaps(centers, radii, i, j) > rounding(centers, radii, i, j)
-    met = np.zeros(len(radii), dtype=bool)
-    met[i[~apart]] = met[j[~apart]] = True
-    return np.flatnonzero(~met)
+    met = gaps(centers, radii, i, j) <= rounding(centers, radii, i, j)
+    return np.setdiff1d(np.arange(len(radii)), [i[met], j[met]])
 
 
 def isolated_lenses(centers, radii, pairs) -> np.ndarray:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import coo_array, triu
 from scipy.spatial import cKDTree
 
 from ..exact import components, unique_rows
-from .pairs import PRECISION, believed, gaps, lengths, octaves, rounding, spread_out, units
+from .pairs import ON, PRECISION, balls_near, believed, gaps, lengths, rounding, spread_out, units
 
-# A singular point is on every sphere that it misses by less than this share of the radius.
-_ON = 1e-9
-# The same for the distance from the origin: some ten roundings, as often amplified.
+# As `ON`, a share of the distance from the origin: some ten roundings, as often amplified.
 _FAR = 1e-14
 # Singular points nearer to each other than this share of the smallest ball through them are one.
 _NEAR = 1e-9
@@ -20,7 +19,7 @@ _LEVEL = 1e-9
 
 
 class Incidence:
-    """Pairs (singular point, ball) with the point on the sphere, as sorted keys.
+    """Pairs (singular point, ball) with the point on the sphere, sorted.
 
     Parameters
     ----------
@@ -30,61 +29,54 @@ class Incidence:
         What was taken off all coordinates; they were rounded before that.
     spread : (s,) float array, optional
         Distance by which each corner may be off, a length.
+
+    Attributes
+    ----------
+    matrix : (s, k) csr_array of int
+        1 where the point is on the sphere.
     """
 
     def __init__(self, corners, centers, radii, origin, spread=None):
-        self.count = len(radii)
         slack = _FAR * np.abs(origin).max() + (np.zeros(len(corners)) if spread is None else spread)
-        point, ball = [], []
-        tree = cKDTree(corners)
-        for group in octaves(radii):
-            near = cKDTree(centers[group]).sparse_distance_matrix(
-                tree, radii[group].max() * (1 + 2 * _ON) + slack.max(initial=0), output_type="ndarray"
-            )
-            # No singular point is inside a ball, so that "not outside" is "on the sphere".
-            on = near["v"] <= radii[group[near["i"]]] * (1 + _ON) + slack[near["j"]]
-            point.append(near["j"][on])
-            ball.append(group[near["i"][on]])
-        self.keys = np.unique(np.concatenate(point) * self.count + np.concatenate(ball))
-        self.first = np.searchsorted(self.keys, np.arange(len(corners) + 1) * self.count)
+        point, ball, away = balls_near(corners, centers, radii, slack.max(initial=0))
+        # No singular point is inside a ball, so that "not outside" is "on the sphere".
+        on = away <= radii[ball] * (1 + ON) + slack[point]
+        ones = np.ones(np.count_nonzero(on), dtype=np.int64)
+        self.matrix = coo_array((ones, (point[on], ball[on])), (len(corners), len(radii))).tocsr()
+        self.matrix.sort_indices()
 
     def common(self, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """All (row, ball) with every singular point of the row on the ball, sorted; groups is (m, c)."""
-        size = np.diff(self.first)
-        rows = np.arange(len(groups))
-        shortest = groups[rows, size[groups].argmin(axis=1)] if len(groups) else np.zeros(0, dtype=int)
-        row, place = spread_out(size[shortest])
-        ball = self.keys[self.first[shortest][row] + place] % self.count
-        for column in groups.T:
-            wanted = column[row] * self.count + ball
-            at = np.minimum(np.searchsorted(self.keys, wanted), len(self.keys) - 1)
-            found = self.keys[at] == wanted
-            row, ball = row[found], ball[found]
-        return row, ball
+        shared = self.matrix[groups[:, 0]]
+        for column in groups.T[1:]:
+            shared = shared.multiply(self.matrix[column])
+        return shared.nonzero()
 
-    def pairs(self) -> np.ndarray:
-        """For each singular point all pairs of its balls, one after the other, (m, 2)."""
-        size = np.diff(self.first)
-        point, ball = np.repeat(np.arange(len(size)), size), self.keys % self.count
-        later = self.first[point + 1] - np.arange(len(ball)) - 1
-        i, place = spread_out(later)
-        return np.column_stack([ball[i], ball[i + 1 + place]])
+    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+        """The pairs of balls with a common singular point, sorted, (m, 2), and how many they have."""
+        shared = triu(self.matrix.T @ self.matrix, 1, format="coo")
+        order = np.lexsort((shared.col, shared.row))
+        return np.stack([shared.row, shared.col], axis=1, dtype=np.int64)[order], shared.data[order]
 
     def balls(self, point: int) -> np.ndarray:
         """The balls of one singular point."""
-        return self.keys[self.first[point] : self.first[point + 1]] % self.count
+        return self.matrix.indices[self.matrix.indptr[point] : self.matrix.indptr[point + 1]]
 
     def balls_of_each(self, n: int) -> np.ndarray:
         """The balls of singular points that lie on exactly n, (s, n), -1 for the others."""
-        balls = np.full((len(self.first) - 1, n), -1)
-        plain = np.flatnonzero(np.diff(self.first) == n)
-        balls[plain] = self.keys[self.first[plain, None] + np.arange(n)] % self.count
+        balls = np.full((self.matrix.shape[0], n), -1)
+        plain = np.flatnonzero(self.sizes() == n)
+        balls[plain] = self.matrix.indices[self.matrix.indptr[plain, None] + np.arange(n)]
         return balls
+
+    def sizes(self) -> np.ndarray:
+        """How many balls each singular point has, (s,)."""
+        return np.diff(self.matrix.indptr)
 
     def smallest(self, radii: np.ndarray) -> np.ndarray:
         """The radius of the smallest ball through each singular point, (s,)."""
-        smallest = np.full(len(self.first) - 1, np.inf)
-        np.minimum.at(smallest, self.keys // self.count, radii[self.keys % self.count])
+        smallest = np.full(self.matrix.shape[0], np.inf)
+        np.minimum.at(smallest, spread_out(self.sizes())[0], radii[self.matrix.indices])
         return smallest
 
 
@@ -96,13 +88,11 @@ def gather(corners: np.ndarray, centers, radii, origin) -> tuple[np.ndarray, Inc
     on = Incidence(corners, centers, radii, origin)
     reach = _NEAR * on.smallest(radii)
     reach[~np.isfinite(reach)] = 0
-    i, j = cKDTree(corners).query_pairs(reach.max(), output_type="ndarray").T
-    near = lengths(corners[i] - corners[j]) <= np.minimum(reach[i], reach[j])
-    if not near.any():
-        return corners, on
-    _, group = components(len(corners), np.column_stack([i, j])[near])
+    group = _linked(corners, reach, np.minimum)
     # The point on most spheres is the best-known one.
-    best = _least(-np.diff(on.first), group)
+    best = _least(-on.sizes(), group)
+    if len(best) == len(corners):
+        return corners, on
     spread = np.zeros(len(best))
     np.maximum.at(spread, group, lengths(corners - corners[best][group]))
     return corners[best], Incidence(corners[best], centers, radii, origin, 2 * spread)
@@ -118,9 +108,14 @@ def merged(points: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """
     if not len(points):
         return points
-    near = cKDTree(points).query_pairs(2 * errors.max(), output_type="ndarray")
-    near = near[lengths(points[near[:, 0]] - points[near[:, 1]]) <= errors[near].sum(axis=1)]
-    return points[_least(errors, components(len(points), near)[1])]
+    return points[_least(errors, _linked(points, errors, np.add))]
+
+
+def _linked(points, reach, both) -> np.ndarray:
+    """The group of each point: linked by distances within `both` (least or sum) of the reaches of two."""
+    i, j = cKDTree(points).query_pairs(2 * reach.max(), output_type="ndarray").T
+    near = lengths(points[i] - points[j]) <= both(reach[i], reach[j])
+    return components(len(points), np.column_stack([i, j])[near])[1]
 
 
 def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray]:
@@ -164,16 +159,10 @@ def contacts(centers, radii, touching) -> tuple[np.ndarray, np.ndarray]:
 
 def _through(points, slack, centers, radii) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """All (point, ball) with the point in the ball or on it, sorted, and whether it is inside for sure."""
-    found = [np.zeros((0, 3))]
-    tree = cKDTree(points)
-    for group in octaves(radii):
-        reach = radii[group].max() * (1 + _ON) + slack.max(initial=0)
-        near = tree.sparse_distance_matrix(cKDTree(centers[group]), reach, output_type="ndarray")
-        found.append(np.column_stack([near["i"], group[near["j"]], near["v"]]))
-    found = np.concatenate(found)
-    found = found[np.lexsort((found[:, 1], found[:, 0]))]
-    point, ball = found[:, :2].astype(np.int64).T
-    out = found[:, 2] - radii[ball]
+    point, ball, away = balls_near(points, centers, radii, slack.max(initial=0))
+    order = np.lexsort((ball, point))
+    point, ball = point[order], ball[order]
+    out = away[order] - radii[ball]
     error = slack[point] + PRECISION * radii[ball] + rounding(centers, radii, ball, ball)
     kept = out <= error
     return point[kept], ball[kept], (out < -error)[kept]

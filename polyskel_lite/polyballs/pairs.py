@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
 
 # A ball that sticks out of another one by less than this share of its radius is taken as part of
 # it: below, the crossings of the two spheres could be anywhere (error about 1e-16 / share).
@@ -17,6 +18,8 @@ _SWALLOWED = 1e-10
 PRECISION = 1e-12
 # However badly conditioned, no crossing is off by more than this share of the smaller radius.
 WORST = 1e-6
+# A point is on every sphere that it misses by less than this share of the radius.
+ON = 1e-9
 ROUNDING = 8 * np.finfo(float).eps
 _CHUNK = 2_000_000  # point-ball pairs looked at together: bounds the memory, not the result
 
@@ -74,17 +77,15 @@ def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
     A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
     that few pairs too many are looked at, however unequal the balls are.
     """
-    found_i, found_j = [], []
+    found = []
     for a, tree, b, other, reach in _octave_pairs(centers, radii):
         near = tree.sparse_distance_matrix(other, reach * (1 + 1e-9), output_type="ndarray")
         i, j = a[near["i"]], b[near["j"]]
         meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
         if tree is other:
             meet &= i < j  # within one tree each pair is found from both sides
-        found_i.append(i[meet])
-        found_j.append(j[meet])
-    i, j = np.concatenate(found_i), np.concatenate(found_j)
-    return np.minimum(i, j), np.maximum(i, j)
+        found.append(np.sort([i[meet], j[meet]], axis=0))
+    return tuple(np.concatenate(found, axis=1))
 
 
 def meeting_graph(centers, radii) -> csr_array:
@@ -102,15 +103,48 @@ def meeting_graph(centers, radii) -> csr_array:
 
 def pair_bound(centers, radii) -> int:
     """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
-    return sum(
-        int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in _octave_pairs(centers, radii)
-    )
+    groups = _octave_pairs(centers, radii)
+    return sum(int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in groups)
 
 
 def _octave_pairs(centers, radii):
     """Every two groups of `octaves`, with their trees and the distance within which their balls may meet."""
     groups = [(group, cKDTree(centers[group]), radii[group].max()) for group in octaves(radii)]
     return [(*g[:2], *h[:2], g[2] + h[2]) for n, g in enumerate(groups) for h in groups[: n + 1]]
+
+
+def balls_near(points, centers, radii, slack=0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points and balls, one pair a row, and the distances of the points from the centres.
+
+    All balls that hold the point or miss it by a length `slack`, and others that are not much smaller.
+
+    Examples
+    --------
+    >>> found = balls_near(np.array([(0.0, 3)]), np.array([(0.0, 0), (9, 0)]), np.array([3.0, 4]))
+    >>> [values.tolist() for values in found]
+    [[0], [0], [3.0]]
+    """
+    tree, found = cKDTree(points), []
+    for group in octaves(radii):
+        reach = radii[group].max() * (1 + 2 * ON) + slack
+        near = cKDTree(centers[group]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        near["i"] = group[near["i"]]
+        found.append(near)
+    near = np.concatenate(found)
+    return near["j"], near["i"], near["v"]
+
+
+def found_at(keys, wanted) -> np.ndarray:
+    """The first row of `keys`, in any order, with each wanted number, -1 where there is none.
+
+    Examples
+    --------
+    >>> found_at(np.array([5, 3, 5]), np.array([5, 4, 3])).tolist()
+    [0, -1, 1]
+    """
+    order = np.append(np.argsort(keys, kind="stable"), -1)
+    row = order[np.searchsorted(keys, wanted, sorter=order[:-1])]
+    return np.where(np.append(keys, -1)[row] == wanted, row, -1)
 
 
 def gaps(centers, radii, i, j) -> np.ndarray:
@@ -147,8 +181,7 @@ def relations(centers, radii, i, j) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     small, large = np.where(smaller, i, j), np.where(smaller, j, i)
     out = lengths(centers[small] - centers[large]) + radii[small] - radii[large]
     inside = out <= _SWALLOWED * radii[small] + rounding(centers, radii, small, large)
-    swallowed = np.zeros(len(radii), dtype=bool)
-    swallowed[small[inside]] = True
+    swallowed = np.isin(np.arange(len(radii)), small[inside])
     pairs = np.column_stack([i, j])[~swallowed[i] & ~swallowed[j]]
     touch = gaps(centers, radii, *pairs.T) >= -believed(centers, radii, *pairs.T)
     return swallowed, pairs[~touch], pairs[touch]
@@ -167,9 +200,7 @@ def in_any(points, centers, radii) -> np.ndarray:
     step = max(1, _CHUNK // max(1, len(points)))
     for first in range(0, len(order), step):
         balls, left = order[first : first + step], np.flatnonzero(~inside)
-        square = sum(
-            np.square(points[left, None, axis] - centers[balls, axis]) for axis in range(points.shape[1])
-        )
+        square = cdist(points[left], centers[balls], "sqeuclidean")
         inside[left] = (square <= np.square(radii[balls])).any(axis=1)
     return inside
 

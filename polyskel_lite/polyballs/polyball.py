@@ -71,10 +71,9 @@ class Polyball(BallBoundary):
         if not len(centers):
             raise InputError("centers is empty; a polyball needs at least one ball.")
         radii = as_radii(self.radii, len(centers))
-        centers.setflags(write=False)
-        radii.setflags(write=False)
-        object.__setattr__(self, "centers", centers)
-        object.__setattr__(self, "radii", radii)
+        for name, array in (("centers", centers), ("radii", radii)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
 
     def __len__(self) -> int:
         """The number of balls."""
@@ -251,9 +250,8 @@ class Polyball(BallBoundary):
                 pairs,
             )
         skeleton = verified_skeleton(self.union) if statement == "corrected" else self._as_printed()
-        return replace(
-            skeleton, vertices=self.from_unit(skeleton.vertices), radii=self.from_unit(skeleton.radii)
-        )
+        places, sizes = self.from_unit(skeleton.vertices), self.from_unit(skeleton.radii)
+        return replace(skeleton, vertices=places, radii=sizes)
 
     def _as_printed(self) -> Skeleton:
         """The skeleton by theorems 3 and 4 as printed, in the unit of the union."""

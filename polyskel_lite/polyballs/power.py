@@ -79,8 +79,7 @@ class PowerTriangulation(NamedTuple):
         >>> balls.faces(2).tolist(), balls.faces(3).tolist()
         ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
         """
-        corners = self.simplices.shape[1]
-        columns = list(combinations(range(corners), size))
+        columns = list(combinations(range(self.simplices.shape[1]), size))
         rows = np.sort(self.simplices[:, columns].reshape(-1, size), axis=1)
         rows = rows[rows[:, -1] < self.count]
         more = {1: self.found[0].reshape(-1, 1), 2: self.found[0], 3: self.found[1]}
@@ -138,22 +137,15 @@ def regular_triangulation(points, weights, size: float, hide: bool = True) -> Po
     [[0, 1]]
     """
     n = points.shape[1]
-    ghosts = _GHOSTS[n] * size
-    points = np.concatenate([points, ghosts])
-    weights = np.append(weights, np.zeros(n + 1))
-    height = (points**2).sum(axis=1) - weights
+    points = np.concatenate([points, _GHOSTS[n] * size])
+    height = (points**2).sum(axis=1) - np.append(weights, np.zeros(n + 1))
     hull = _hull(np.column_stack([points / size, height / size**2]), hide)
     down = hull.equations[:, n]
     lower = down < -1e-12
     number = np.append(np.where(lower, np.cumsum(lower) - 1, -1), -1)
     slope = hull.equations[lower, :n] / (-2 * down[lower, None])
-    return PowerTriangulation(
-        points=points,
-        simplices=hull.simplices[lower],
-        neighbors=number[hull.neighbors[lower]],
-        orthocenters=slope * size,
-        count=len(points) - n - 1,
-    )
+    neighbors, count = number[hull.neighbors[lower]], len(points) - n - 1
+    return PowerTriangulation(points, hull.simplices[lower], neighbors, slope * size, count)
 
 
 def _hull(points, hide: bool) -> ConvexHull:
@@ -248,8 +240,8 @@ def _orthoballs(points, weights, faces) -> tuple[np.ndarray, np.ndarray]:
 
 def _betti(t, shape, solid) -> tuple[int, ...]:
     """Betti numbers of a part of the triangulation: its simplices by size, and which largest ones it has."""
-    used, ends = np.unique(shape[2], return_inverse=True)
-    pieces = components(len(used), ends.reshape(-1, 2))[0] + len(shape[1]) - len(used)
+    # A ball that is not in the shape is a piece of its own in this graph.
+    pieces = components(t.count, shape[2])[0] - t.count + len(shape[1])
     characteristic = sum((-1) ** (size - 1) * len(faces) for size, faces in shape.items())
     if len(shape) == 3:
         return pieces, pieces - characteristic

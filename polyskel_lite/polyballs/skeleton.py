@@ -19,7 +19,7 @@ from ..errors import TessellationError
 from ..exact import Polygons, components, edge_rings, unique_rows
 from ..skeletons import Skeleton
 from .incidence import Incidence, gather
-from .pairs import lengths, units
+from .pairs import found_at, lengths, units
 from .power import PowerTriangulation, regular_triangulation
 from .union import BallUnion
 
@@ -86,23 +86,16 @@ def ball_skeleton(union: BallUnion, alone, bridges) -> Skeleton:
         t = _triangulate(corners)
         label, vertices, sizes = _voronoi_vertices(t, corners, on, vertices, sizes)
         lines = _faces(t, label, on, union.exposed, len(union.origin))
-        edges.append(_chains(lines, vertices))
+        edges.append(_chains(lines.face, lines.vertex, vertices))
         if union.in_space:
             sheets = _faces(t, label, on, union.exposed, 2)
             polygons, flat = _polygons(sheets, _ring_places(t, label, sheets), vertices, corners)
             edges += [flat, polygons.sides()]
     edges = unique_rows(np.sort(np.concatenate(edges), axis=1), len(vertices))[0]
-    used = np.zeros(len(vertices), dtype=bool)
-    used[: len(alone)] = alone
-    used[edges] = True
-    number = np.cumsum(used) - 1
-    return Skeleton(
-        vertices=vertices[used] + union.origin,
-        radii=sizes[used],
-        simplices=np.full(int(used.sum()), -1),
-        edges=number[edges],
-        polygons=Polygons(number[polygons.corners], polygons.sizes),
-    )
+    used = np.union1d(np.flatnonzero(alone), edges)
+    polygons = Polygons(np.searchsorted(used, polygons.corners), polygons.sizes)
+    edges, no_simplex = np.searchsorted(used, edges), np.full(len(used), -1)
+    return Skeleton(vertices[used] + union.origin, sizes[used], no_simplex, edges, polygons)
 
 
 def verified_skeleton(union: BallUnion) -> Skeleton:
@@ -193,18 +186,16 @@ def _voronoi_vertices(t, corners, on: Incidence, centers, radii):
     place, size = _circumballs(corners[t.simplices[rest]], t.orthocenters[rest])
     # The same ball may be one of the given ones, or that of a neighbouring simplex.
     distance, nearest = cKDTree(centers).query(place)
-    given = distance <= _SAME * size
-    given &= np.abs(radii[nearest] - size) <= _SAME * size
+    given = (distance <= _SAME * size) & (np.abs(radii[nearest] - size) <= _SAME * size)
     label[rest[given]] = nearest[given]
-    rest, place, size = rest[~given], place[~given], size[~given]
-    kept = _in_union(t.simplices[rest], place, corners, on, centers)
+    kept = ~given
+    kept[kept] = _in_union(t.simplices[rest[kept]], place[kept], corners, on, centers)
     rest, place, size = rest[kept], place[kept], size[kept]
     number = np.full(len(t.simplices), -1)
     number[rest] = np.arange(len(rest))
-    pairs = np.column_stack(
-        [np.repeat(np.arange(len(rest)), t.simplices.shape[1]), number[t.neighbors[rest]].ravel()]
-    )
-    pairs = pairs[pairs[:, 1] >= 0]
+    beside = number[t.neighbors[rest]]
+    row, side = np.nonzero(beside >= 0)
+    pairs = np.column_stack([row, beside[row, side]])
     twins = pairs[lengths(place[pairs[:, 0]] - place[pairs[:, 1]]) <= _SAME * size[pairs].min(axis=1)]
     count, group = components(len(rest), twins)
     representative = np.zeros(count, dtype=np.int64)
@@ -230,20 +221,17 @@ def _in_union(simplices, place, corners, on: Incidence, centers) -> np.ndarray:
     a positive combination of the directions from p to the centres of its balls. All corners of the simplex
     agree on that; the one that is clearest decides.
     """
-    m, n = place.shape
-    own = on.balls_of_each(n)
-    inside, clearest = np.zeros(m, dtype=bool), np.zeros(m)
-    for p in simplices.T:
-        towards = units(centers[own[p]] - corners[p][:, None])
-        offset = place - corners[p]
-        clear = (own[p, 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
-        towards[~clear] = np.eye(n)
-        share = np.linalg.solve(towards.swapaxes(1, 2), offset[:, :, None])[:, :, 0].min(axis=1)
-        margin = np.where(clear, share / lengths(offset), 0)
-        better = np.abs(margin) > clearest
-        inside[better], clearest[better] = margin[better] > -_CONE, np.abs(margin[better])
+    own = on.balls_of_each(place.shape[1])[simplices]
+    towards = units(centers[own] - corners[simplices][:, :, None])
+    offset = place[:, None] - corners[simplices]
+    clear = (own[..., 0] >= 0) & (np.abs(np.linalg.det(towards)) > _PLANE)
+    towards[~clear] = np.eye(place.shape[1])
+    share = np.linalg.solve(towards.swapaxes(2, 3), offset[..., None])[..., 0].min(axis=2)
+    margin = np.where(clear, share / lengths(offset), 0)
+    clearest = margin[np.arange(len(margin)), np.abs(margin).argmax(axis=1)]
+    inside = clearest > -_CONE
     # Where more than N balls meet in every corner, look for the combination itself.
-    for row in np.flatnonzero(clearest < _FLAT):
+    for row in np.flatnonzero(np.abs(clearest) < _FLAT):
         inside[row] = all(
             _in_cone(place[row] - corners[p], centers[on.balls(p)] - corners[p]) for p in simplices[row]
         )
@@ -266,15 +254,12 @@ def _faces(t, label, on: Incidence, exposed, size: int) -> _Faces:
     through, ball = on.common(generators)
     through, ball = through[exposed[ball]], ball[exposed[ball]]
     rows = np.column_stack([np.append(face[vertex >= 0], through), np.append(vertex[vertex >= 0], ball)])
-    rows, _ = unique_rows(rows, max(len(generators), on.count, int(label.max()) + 1))
+    rows, _ = unique_rows(rows, max(len(generators), len(exposed), int(label.max()) + 1))
     return _Faces(generators, rows[:, 0], rows[:, 1])
 
 
-def _chains(faces: _Faces, vertices) -> np.ndarray:
+def _chains(face, vertex, vertices) -> np.ndarray:
     """Edges between consecutive vertices of faces that are parts of lines, (e, 2)."""
-    face, vertex = faces.face, faces.vertex
-    if not len(face):
-        return np.zeros((0, 2), dtype=np.int64)
     offset, direction, _ = _about_middle(face, vertices[vertex])
     along = np.einsum("mi,mi->m", offset, direction)
     order = np.lexsort((along, face))
@@ -294,28 +279,21 @@ def _about_middle(face, places) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def _ring_places(t, label, faces: _Faces) -> np.ndarray:
     """The place of each skeleton vertex in the ring around its face, -1 on faces that are cut."""
-    edges, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
+    _, edge, owner, position = edge_rings(t.simplices, t.neighbors, t.count)
     vertex = label[owner]
-    outside = np.zeros(len(edges), dtype=bool)
-    outside[edge[vertex < 0]] = True
-    rows = np.lexsort((position, vertex, edge))
+    rows = np.argsort(position)
     rows = rows[vertex[rows] >= 0]
     bound = 1 + max(label.max(), faces.vertex.max(initial=0))
-    key, first = np.unique(edge[rows] * bound + vertex[rows], return_index=True)
-    key, first = np.append(key, -1), np.append(rows[first], 0)
-    wanted = faces.face * bound + faces.vertex
-    at = np.searchsorted(key[:-1], wanted)
-    place = np.where(key[at] == wanted, position[first[at]], -1)
+    at = found_at(edge[rows] * bound + vertex[rows], faces.face * bound + faces.vertex)
+    place = np.append(position[rows], -1)[at]
     # A centre of a ball that is no vertex of the ring is where the face was cut.
-    outside[faces.face[place < 0]] = True
-    return np.where(outside[faces.face], -1, place)
+    cut = np.append(edge[vertex < 0], faces.face[place < 0])
+    return np.where(np.isin(faces.face, cut), -1, place)
 
 
 def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.ndarray]:
     """The convex polygons with three corners or more, in order, and the edges of those that are flat."""
     face, vertex = faces.face, faces.vertex
-    if not len(face):
-        return Polygons(), np.zeros((0, 2), dtype=np.int64)
     offset, x, size = _about_middle(face, vertices[vertex])
     first = np.cumsum(size) - size
     normal = corners[faces.generators[face, 1]] - corners[faces.generators[face, 0]]
@@ -324,10 +302,10 @@ def _polygons(faces: _Faces, place, vertices, corners) -> tuple[Polygons, np.nda
     extent = np.maximum.reduceat(np.abs(along), first)
     wide = np.repeat(np.maximum.reduceat(np.abs(across), first) > _FLAT * extent, size)
     solid = np.where(place >= 0, np.repeat(size >= 3, size), wide)
-    line = _Faces(faces.generators, face[~solid], vertex[~solid])
     # Faces that are in as a whole keep the order of their ring, which no rounding can change. For the others:
     # the middle of a convex polygon is inside it, so its corners are in order as seen from there.
     turn = np.where(place >= 0, place, np.arctan2(across, along))
-    order = np.lexsort((turn[solid], face[solid]))
-    ordered = _Faces(faces.generators, face[solid][order], vertex[solid][order])
-    return Polygons(ordered.vertex, np.unique(ordered.face, return_counts=True)[1]), _chains(line, vertices)
+    rows = np.flatnonzero(solid)
+    rows = rows[np.lexsort((turn[rows], face[rows]))]
+    polygons = Polygons(vertex[rows], np.unique(face[rows], return_counts=True)[1])
+    return polygons, _chains(face[~solid], vertex[~solid], vertices)

@@ -19,8 +19,8 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 from ..checks import as_number
 from ..errors import InputError
 from ..exact import components
-from .pairs import spread_out, units
-from .spheres import SphereBoundary
+from .discs import Boundary
+from .pairs import found_at, spread_out, units
 from .union import BallUnion, Caps
 
 #: Triangles on all spheres together: one million take ten seconds, and no screen shows more.
@@ -92,52 +92,43 @@ def patches(union: BallUnion, fineness: float = 0.03) -> tuple[np.ndarray, np.nd
             f"pass {fineness * np.sqrt(count / MOST_TRIANGLES):.2g} or more."
         )
     parts = parts.astype(np.int64)
-    rims = _rims(union.boundary, radii * _EDGE / parts)
-    hulls = _hulls(union, parts, rims)
+    shared, rims = _rims(union.boundary, radii * _EDGE / parts)
+    hulls = _hulls(union, parts, shared, rims)
     kept, broken = _patch_side(hulls)
-    ball = hulls.ball[kept]
-    triangles = hulls.names[hulls.triangles[kept]]
+    triangles = hulls.triangles[kept]
+    ball, triangles = hulls.ball[triangles[:, 0]], hulls.names[triangles]
     if len(broken):
         whole = ~np.isin(ball, broken)
-        fans = [_fan(rims.edges[rims.first[b] : rims.first[b + 1]]) for b in broken]
+        fans = [_fan(rims[b]) for b in broken]
         triangles = np.concatenate([triangles[whole], *fans])
         ball = np.concatenate([ball[whole], np.repeat(broken, [len(fan) for fan in fans])])
     used, triangles = np.unique(triangles, return_inverse=True)
     return hulls.vertices[used], triangles.reshape(-1, 3), ball
 
 
-class _Rims(NamedTuple):
-    """Polygons along the exposed arcs: of ball i rows first[i] to first[i + 1], its patch on their left."""
-
-    vertices: np.ndarray
-    edges: np.ndarray
-    first: np.ndarray
-
-
 class _Hulls(NamedTuple):
     """Triangulated spheres, each with its own copy of the vertices on its arcs.
 
-    `names` is the row in `vertices` of each copy; `rims` are edges of copies, `rim_ball` their spheres.
+    `names` is the row in `vertices` of each copy, `ball` its sphere; `rims` are the edges of arcs.
     """
 
     vertices: np.ndarray
     names: np.ndarray
     triangles: np.ndarray
-    ball: np.ndarray
     rims: np.ndarray
-    rim_ball: np.ndarray
+    ball: np.ndarray
 
 
-def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
-    """Cut all exposed arcs into edges not longer than those of the finer one of both spheres."""
+def _rims(boundary: Boundary, edge: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Cut all exposed arcs into edges not longer than those of the finer one of both spheres.
+
+    The vertices, and for each ball its edges: polygons along its arcs, with its patch on their left.
+    """
     row, start, end = boundary.arcs
     circles, corners = boundary.circles, boundary.corners
-    count = len(edge)
     whole = boundary.arcs.whole
-    ends = np.zeros((2, len(row)), dtype=np.int64)
-    if len(corners):
-        places = circles.points(np.tile(row, 2), np.concatenate([start, end]))
-        ends = cKDTree(corners).query(places)[1].reshape(2, -1)
+    places = circles.points(np.tile(row, 2), np.concatenate([start, end]))
+    ends = cKDTree(corners).query(places)[1].reshape(2, -1)
     # An arc shorter than the error of its ends is nothing.
     kept = whole | (ends[0] != ends[1]) | (end - start > np.pi)
     row, start, end, whole, ends = row[kept], start[kept], end[kept], whole[kept], ends[:, kept]
@@ -157,20 +148,20 @@ def _rims(boundary: SphereBoundary, edge: np.ndarray) -> _Rims:
     ball = np.concatenate([i, j])
     edges = np.concatenate([np.stack([after, begin], axis=1), np.stack([begin, after], axis=1)])
     order = np.argsort(ball, kind="stable")
-    return _Rims(vertices, edges[order], np.searchsorted(ball[order], np.arange(count + 1)))
+    return vertices, np.split(edges[order], np.searchsorted(ball[order], np.arange(1, len(edge))))
 
 
-def _hulls(union: BallUnion, parts, rims: _Rims) -> _Hulls:
+def _hulls(union: BallUnion, parts, on_arcs, rims) -> _Hulls:
     """Triangulate each sphere with its arcs' vertices and the vertices of an icosphere between them."""
     centers, radii, balls, covered = union.centers, union.radii, np.flatnonzero(union.exposed), union.caps
-    vertices, names, triangles, edges = [rims.vertices], [], [], []
-    number, copies = len(rims.vertices), 0
+    vertices, names, triangles, edges = [on_arcs], [], [], []
+    number, copies = len(on_arcs), 0
     for ball in balls:
-        rim = rims.edges[rims.first[ball] : rims.first[ball + 1]]
+        rim = rims[ball]
         if len(rim):
             shared, rim = np.unique(rim, return_inverse=True)
             rim = rim.reshape(-1, 2)
-            places = (rims.vertices[shared] - centers[ball]) / radii[ball]
+            places = (on_arcs[shared] - centers[ball]) / radii[ball]
             inner = _inner(covered, ball, parts[ball], places[rim])
             found = _hull(np.concatenate([places, inner]))
         else:
@@ -182,14 +173,8 @@ def _hulls(union: BallUnion, parts, rims: _Rims) -> _Hulls:
         edges.append(rim + copies)
         number += len(inner)
         copies += len(shared) + len(inner)
-    return _Hulls(
-        np.concatenate(vertices),
-        np.concatenate(names),
-        np.concatenate(triangles),
-        np.repeat(balls, [len(found) for found in triangles]),
-        np.concatenate(edges),
-        np.repeat(balls, [len(rim) for rim in edges]),
-    )
+    joined = map(np.concatenate, (vertices, names, triangles, edges))
+    return _Hulls(*joined, np.repeat(np.repeat(balls, 2), [len(part) for part in names]))
 
 
 def _inner(covered: Caps, ball: int, parts: int, rim: np.ndarray) -> np.ndarray:
@@ -225,24 +210,20 @@ def _patch_side(hulls: _Hulls) -> tuple[np.ndarray, np.ndarray]:
     count = len(hulls.names)
     a, b = hulls.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).T
     triangle = np.arange(len(a)) // 3
-    key, twin = a * count + b, b * count + a
-    order = np.argsort(key)
-    at = np.minimum(np.searchsorted(key, twin, sorter=order), len(key) - 1)
-    paired = key[order[at]] == twin
-    doubled = np.append(False, np.diff(key[order]) == 0)
-    rim = hulls.rims[:, 0] * count + hulls.rims[:, 1]
+    key, twin, rim = a * count + b, b * count + a, hulls.rims @ (count, 1)
+    at = found_at(key, twin)
+    # Not so where an edge has no twin, or where it is there twice.
+    paired = (at >= 0) & (at[at] == np.arange(len(at)))
     left, right = np.isin(key, rim), np.isin(twin, rim)
     through = paired & ~left & ~right
-    links = np.column_stack([triangle[through], triangle[order[at[through]]]])
+    links = np.column_stack([triangle, triangle[at]])[through]
     number, region = components(len(hulls.triangles), links)
-    inside, outside = np.zeros((2, number), dtype=bool)
-    inside[region[triangle[left]]] = True
-    outside[region[triangle[right]]] = True
-    lost = ~np.isin(rim, key)
-    whole = ~np.isin(hulls.ball, hulls.rim_ball)
+    inside, outside = (np.isin(np.arange(number), region[triangle[side]]) for side in (left, right))
+    ball, rim_ball = hulls.ball[hulls.triangles[:, 0]], hulls.ball[hulls.rims[:, 0]]
+    lost, whole = ~np.isin(rim, key), ~np.isin(ball, rim_ball)
     unclear = (inside == outside)[region] & ~whole
-    doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired], triangle[order[doubled]]])
-    return inside[region] | whole, np.union1d(hulls.rim_ball[lost], hulls.ball[doubtful])
+    doubtful = np.concatenate([np.flatnonzero(unclear), triangle[~paired]])
+    return inside[region] | whole, np.union1d(rim_ball[lost], ball[doubtful])
 
 
 def _fan(edges: np.ndarray) -> np.ndarray:

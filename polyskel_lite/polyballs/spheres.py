@@ -6,25 +6,13 @@ looked at. On each circle the covered parts are intervals of angles, put togethe
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..exact import occurrences, unique_rows
-from .discs import Arcs, Covers, ends_of, uncovered
+from .discs import Arcs, Boundary, Circles, Covers, ends_of, uncovered
 from .incidence import contacts, merged
-from .pairs import (
-    PRECISION,
-    crossings,
-    frames,
-    in_any,
-    lengths,
-    meeting_graph,
-    octaves,
-    relations,
-    rounding,
-)
+from .pairs import PRECISION, balls_near, found_at, in_any, lengths, meeting_graph, relations, rounding
 from .power import PowerTriangulation
 
 # However badly known a circle, no point of it is off by more than this angle.
@@ -38,67 +26,7 @@ _ROUNDS = 6
 _TRIPLES = 4_000_000  # rows of the table of triples: above, memory and patience end
 
 
-class Circles(NamedTuple):
-    """Circles in which two spheres cross.
-
-    Attributes
-    ----------
-    pairs : (m, 2) int array
-        The two balls, i < j.
-    centers : (m, 3) float array
-    radii : (m,) float array
-    frames : (m, 3, 3) float array
-        Rows: two unit vectors in the plane of the circle, from which angles count, and its axis from i to j.
-    """
-
-    pairs: np.ndarray
-    centers: np.ndarray
-    radii: np.ndarray
-    frames: np.ndarray
-
-    def points(self, circle: np.ndarray, angle: np.ndarray) -> np.ndarray:
-        """Points at given angles on given circles, (m, 3).
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> unit = Circles(np.array([[0, 1]]), np.zeros((1, 3)), np.ones(1), np.eye(3)[None])
-        >>> unit.points(np.array([0]), np.array([np.pi])).round(3).tolist()
-        [[-1.0, 0.0, 0.0]]
-        """
-        x, y = self.frames[circle, 0], self.frames[circle, 1]
-        swing = np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y
-        return self.centers[circle] + self.radii[circle, None] * swing
-
-
-class SphereBoundary(NamedTuple):
-    """What `sphere_boundary` returns.
-
-    Attributes
-    ----------
-    exposed : (k,) bool array
-        Balls with a patch of their sphere on the boundary.
-    circles : Circles
-        Those with an arc on the boundary.
-    arcs : Arcs
-        Their exposed arcs; ``ball`` is the row of the circle.
-    corners : (s, 3) float array
-        The singular points: ends of arcs.
-    touching : (q, 2) int array
-        Balls that touch from outside in a point of the boundary.
-    sound : bool
-        Whether the arcs close up; not so where too many balls nearly coincide for floating-point numbers.
-    """
-
-    exposed: np.ndarray
-    circles: Circles
-    arcs: Arcs
-    corners: np.ndarray
-    touching: np.ndarray
-    sound: bool = True
-
-
-def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> SphereBoundary:
+def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangulation) -> Boundary:
     """Find the circles, arcs and singular points of the boundary of a union of balls in space.
 
     Parameters
@@ -119,31 +47,28 @@ def sphere_boundary(centers: np.ndarray, radii: np.ndarray, power: PowerTriangul
     (3, 2)
     """
     gone, crossing, touching = relations(centers, radii, *power.faces(2).T)
-    middle, radius, axis = crossings(centers, radii, crossing)
-    circles = Circles(crossing, middle, radius, frames(axis))
+    circles = Circles.between(centers, radii, crossing)
     covers, covered = _covers(centers, radii, power, circles)
     arcs, errors = uncovered(covers, np.flatnonzero(~covered))
-    corners = merged(*ends_of(arcs, errors, circles.radii, circles.points))
+    corners = merged(*ends_of(arcs, errors, circles))
     keep, row = np.unique(arcs.ball, return_inverse=True)
-    crossed, exposed = np.zeros((2, len(radii)), dtype=bool)
-    crossed[crossing] = True
-    exposed[crossing[keep]] = True
+    crossed, exposed = (np.isin(np.arange(len(radii)), pairs) for pairs in (crossing, crossing[keep]))
     # A sphere that crosses no other one is exposed as a whole, or not at all.
     whole = ~crossed & ~gone
-    whole[whole] = ~_covered(centers[whole] + radii[whole, None] * _POLE, centers, radii)
+    poles = centers[whole] + radii[whole, None] * _POLE
+    whole[whole] = ~in_any(poles, centers, radii * (1 - _INSIDE))
     circles = Circles(*(values[keep] for values in circles))
     touching, _ = contacts(centers, radii, touching)
-    return SphereBoundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
-
-
-def _covered(points, centers, radii) -> np.ndarray:
-    """Which points lie in a ball, beyond rounding, (m,) bool array."""
-    return in_any(points, centers, radii * (1 - _INSIDE))
+    return Boundary(exposed | whole, circles, Arcs(row, arcs.start, arcs.end), corners, touching)
 
 
 def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray]:
     """The part of each circle in each ball in a triple with the pair; which circles are all covered."""
-    row, k = _third_balls(power, circles.pairs, len(radii))
+    triples, count = power.faces(3), len(radii)
+    # Each triple with each of its pairs: the row of the circle, if there is one, and the third ball.
+    sides = np.concatenate([triples[:, (0, 1)], triples[:, (0, 2)], triples[:, (1, 2)]])
+    row = found_at(circles.pairs @ (count, 1), sides @ (count, 1))
+    row, k = row[row >= 0], triples.T[::-1].ravel()[row >= 0]
     i, j = circles.pairs[row].T
     to = centers[k] - circles.centers[row]
     x, y, z = (np.einsum("mi,mi->m", to, circles.frames[row, c]) for c in range(3))
@@ -153,8 +78,8 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     believed = PRECISION * (radii[i] + radii[j] + radii[k]) + rounding(centers, radii, i, j)
     believed += rounding(centers, radii, k, k)
     d = lengths(centers[j] - centers[i])
-    along = np.abs(np.einsum("mi,mi->m", centers[k] - centers[i], circles.frames[row, 2]))
-    along = np.minimum(along, np.abs(np.einsum("mi,mi->m", centers[k] - centers[j], circles.frames[row, 2])))
+    axis = circles.frames[row, 2]
+    along = np.minimum(*(np.abs(np.einsum("mi,mi->m", centers[k] - centers[e], axis)) for e in (i, j)))
     # Where the two spheres nearly coincide, rounding moves their circle: along its axis by (error) r / d, and
     # it tilts the axis by (error) / d.
     error = along * (radii[i] + radii[j]) + (across + h + np.abs(z)) * (radii[i] + radii[j])
@@ -163,8 +88,7 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     # A ball through the whole circle, within the error, covers nothing of it.
     none_in |= np.abs(excess) + across <= error
     all_in &= ~none_in
-    covered = np.zeros(len(circles.pairs), dtype=bool)
-    covered[row[all_in]] = True
+    covered = np.isin(np.arange(len(circles.pairs)), row[all_in])
     some = ~(all_in | none_in) & ~covered[row]
     row, across, excess, error, x, y = (v[some] for v in (row, across, excess, error, x, y))
     above, below = np.maximum(across - excess, 0), np.maximum(across + excess, 0)
@@ -173,24 +97,7 @@ def _covers(centers, radii, power, circles: Circles) -> tuple[Covers, np.ndarray
     return Covers.about(row, x, y, above, below, shift), covered
 
 
-def _third_balls(power, pairs, count) -> tuple[np.ndarray, np.ndarray]:
-    """For each pair (a row) all balls in a triple with it."""
-    triples = power.faces(3)
-    if not len(triples) or not len(pairs):
-        return np.zeros((2, 0), dtype=np.int64)
-    key = pairs[:, 0] * count + pairs[:, 1]
-    order = np.argsort(key)
-    rows, others = [], []
-    for a, b, c in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
-        wanted = triples[:, a] * count + triples[:, b]
-        at = np.minimum(np.searchsorted(key, wanted, sorter=order), len(key) - 1)
-        found = key[order[at]] == wanted
-        rows.append(order[at[found]])
-        others.append(triples[found, c])
-    return np.concatenate(rows), np.concatenate(others)
-
-
-def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, SphereBoundary]:
+def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerTriangulation, Boundary]:
     """The same as `sphere_boundary` after a check of every arc, and the triangulation that it took.
 
     Where many balls pass through one point and nearly coincide, Qhull can lose some of them; then arcs are
@@ -228,7 +135,7 @@ def verified_boundary(centers, radii, power: PowerTriangulation) -> tuple[PowerT
     return power, found._replace(sound=False)
 
 
-def _closes(found: SphereBoundary, starts, ends) -> bool:
+def _closes(found: Boundary, starts, ends) -> bool:
     """Whether every end of an arc is at a singular point where another one ends."""
     part = ~found.arcs.whole
     ends = np.concatenate([starts[part], ends[part]])
@@ -255,15 +162,12 @@ def _all_around(balls, graph) -> tuple[np.ndarray, np.ndarray] | None:
 
 def _deepest(places, centers, radii) -> tuple[np.ndarray, np.ndarray]:
     """The places that are inside a ball, beyond rounding, and the ball in which each is deepest."""
+    point, near, away = balls_near(places, centers, radii)
+    inside = 1 - away / radii[near]
+    # Of several the last one stays, which is the deepest.
+    order = np.argsort(inside)
+    order = order[inside[order] > 0]
     depth, ball = np.zeros(len(places)), np.full(len(places), -1)
-    tree = cKDTree(places)
-    for group in octaves(radii):
-        near = cKDTree(centers[group]).sparse_distance_matrix(tree, radii[group].max(), output_type="ndarray")
-        inside = 1 - near["v"] / radii[group[near["i"]]]
-        order = np.argsort(inside)
-        at, inside, candidate = near["j"][order], inside[order], group[near["i"]][order]
-        better = inside > depth[at]
-        # Of several the last one stays, which is the deepest.
-        depth[at[better]], ball[at[better]] = inside[better], candidate[better]
+    depth[point[order]], ball[point[order]] = inside[order], near[order]
     deep = np.flatnonzero(depth > _DEEP)
     return deep, ball[deep]

@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .discs import DiscBoundary, disc_boundary
+from .discs import Boundary, disc_boundary
 from .generating import alike, distinct
 from .incidence import Incidence
 from .pairs import circle_offset, lengths, pair_bound, relations
 from .power import PowerTriangulation, homotopy, power_triangulation
-from .spheres import SphereBoundary, verified_boundary
+from .spheres import verified_boundary
 
 # Where more pairs of discs than this may meet, only those in the power diagram are looked at: less sure if
 # discs nearly coincide, but 10,000 discs on one another would have 50 million pairs.
@@ -34,11 +34,14 @@ class Caps(NamedTuple):
         Unit vectors to the middles of the caps.
     heights : (m,) float array
         p is in the cap if (p - c) · axis > height · radius.
+    ball : (m,) int array
+        The sphere of each cap.
     """
 
     first: np.ndarray
     axes: np.ndarray
     heights: np.ndarray
+    ball: np.ndarray
 
 
 class BallUnion:
@@ -85,24 +88,21 @@ class BallUnion:
         return self._verified[0] if self.in_space else self._triangulated
 
     @cached_property
-    def boundary(self) -> DiscBoundary | SphereBoundary:
+    def boundary(self) -> Boundary:
         """Arcs and corners of the boundary."""
         # Found where the balls stand, because their rounding there says how far crossings are believed.
         if self.in_space:
             found = self._verified[1]
-            circles = found.circles._replace(centers=found.circles.centers - self.origin)
-            found = found._replace(circles=circles)
         else:
             crowded = pair_bound(self._places, self.radii) > _PAIRS
             found = disc_boundary(self._places, self.radii, self.power if crowded else None)
-        return found._replace(corners=found.corners - self.origin)
+        circles = found.circles._replace(centers=found.circles.centers - self.origin)
+        return found._replace(circles=circles, corners=found.corners - self.origin)
 
-    @cached_property
+    @property
     def exposed(self) -> np.ndarray:
         """Which balls have a piece of their sphere on the boundary, (k,) bool array."""
-        if self.in_space:
-            return self.boundary.exposed
-        return np.isin(np.arange(len(self.radii)), self.boundary.arcs.ball)
+        return self.boundary.exposed
 
     @cached_property
     def caps(self) -> Caps:
@@ -125,13 +125,12 @@ class BallUnion:
         heights = circle_offset(d, self.radii[i], self.radii[j]) / self.radii[i]
         order = np.lexsort((heights, i))
         first = np.searchsorted(i[order], np.arange(len(self.radii) + 1))
-        return Caps(first, (across / d[:, None])[order], heights[order])
+        return Caps(first, (across / d[:, None])[order], heights[order], i[order])
 
     @property
     def sound(self) -> bool:
         """Whether the arcs of the boundary close up and no two balls touch on it."""
-        boundary = self.boundary
-        return not len(boundary.touching) and not (self.in_space and not boundary.sound)
+        return self.boundary.sound and not len(self.boundary.touching)
 
     def alike(self, share: float) -> BallUnion:
         """Nearly the same union, with one ball for all that differ by less than a share of their radius.
@@ -165,14 +164,11 @@ class BallUnion:
         >>> three.crossing().tolist(), len(three.crossing(bare=True))
         ([[0, 1], [0, 2], [1, 2]], 0)
         """
-        corners = self.boundary.corners
         if self.in_space:
             arcs, pairs = self.boundary.arcs, self.boundary.circles.pairs
             return pairs[np.isin(np.arange(len(pairs)), arcs.ball[arcs.whole])] if bare else pairs
-        if not len(corners):
-            return np.zeros((0, 2), dtype=np.int64)
-        pairs = Incidence(corners, self.centers, self.radii, self.origin).pairs()
-        pairs, times = np.unique(pairs, axis=0, return_counts=True)
+        on = Incidence(self.boundary.corners, self.centers, self.radii, self.origin)
+        pairs, times = on.pairs()
         return pairs[times >= 2] if bare else pairs
 
     def as_given(self, pairs: np.ndarray) -> np.ndarray:
@@ -192,5 +188,5 @@ class BallUnion:
         return power_triangulation(self.centers, self.radii)
 
     @cached_property
-    def _verified(self) -> tuple[PowerTriangulation, SphereBoundary]:
+    def _verified(self) -> tuple[PowerTriangulation, Boundary]:
         return verified_boundary(self._places, self.radii, self._triangulated)

@@ -111,7 +111,7 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     count = len(union.radii)
     covered = union.caps
     row, start, end = _arcs(covered)
-    ball = _balls(covered)[row]
+    ball = covered.ball[row].astype(np.intp)  # what bincount takes in a browser
     x, y, axis = frames(covered.axes)[row].swapaxes(0, 1)
     h = covered.heights[row]
     s = np.sqrt(np.maximum(1 - h**2, 0))
@@ -140,20 +140,14 @@ def patch_areas(union: BallUnion) -> tuple[np.ndarray, np.ndarray]:
     return share * union.radii**2, normals * (union.radii**2 / 2)[:, None]
 
 
-def _balls(covered: Caps) -> np.ndarray:
-    """The sphere of each cap."""
-    return spread_out(np.diff(covered.first))[0]
-
-
 def _arcs(covered: Caps) -> Arcs:
     """The arcs of the edge of each cap that no other cap of its sphere covers.
 
     Every sphere decides for itself, from its own caps. So the arcs around a patch follow each other, and
     neither spheres that nearly coincide nor many that pass through one point tear them apart.
     """
-    degree = np.diff(covered.first)
-    ball = _balls(covered)
-    row, other = spread_out(degree[ball])
+    ball = covered.ball
+    row, other = spread_out(np.diff(covered.first)[ball])
     other += covered.first[ball[row]]
     row, other = row[row != other], other[row != other]
     x, y, axis = frames(covered.axes).swapaxes(0, 1)
@@ -170,8 +164,7 @@ def _arcs(covered: Caps) -> Arcs:
     # Of equal caps the first one has the edge; caps that share an edge from both sides leave nothing.
     outside = np.where(same, (side < 0) | (row < other), outside & ~inside)
     inside = np.where(same, ~outside, inside)
-    hidden = np.zeros(len(ball), dtype=bool)
-    hidden[row[inside]] = True
+    hidden = np.isin(np.arange(len(ball)), row[inside])
     some = ~(inside | outside) & ~hidden[row]
     row, across, excess, u, v = row[some], across[some], excess[some], u[some], v[some]
     covers = Covers.about(row, u, v, across - excess, across + excess, np.zeros(len(row)))
@@ -181,20 +174,18 @@ def _arcs(covered: Caps) -> Arcs:
 def _free_share(covered: Caps) -> np.ndarray:
     """The share of the poles of each sphere that is in no cap, (k,)."""
     inside = covered.axes @ _POLES.T > covered.heights[:, None]
-    cut = np.flatnonzero(np.diff(covered.first))
-    hidden = np.zeros((len(covered.first) - 1, len(_POLES)), dtype=bool)
-    if len(cut):
-        hidden[cut] = np.logical_or.reduceat(inside, covered.first[cut])
+    degree = np.diff(covered.first)
+    hidden = np.zeros((len(degree), len(_POLES)), dtype=bool)
+    hidden[degree > 0] = np.logical_or.reduceat(inside, covered.first[:-1][degree > 0])
     return 1 - hidden.mean(axis=1)
 
 
 def _far_poles(ball, places, count) -> np.ndarray:
     """For each ball the pole whose opposite point is farthest from all ends of arcs."""
     chosen = np.zeros(count, dtype=np.int64)
-    if len(ball):
-        first = np.flatnonzero(np.diff(ball, prepend=-1))
-        away = np.min([(1 + ends @ _POLES.T) for ends in places], axis=0)
-        chosen[ball[first]] = np.minimum.reduceat(away, first).argmax(axis=1)
+    first = np.flatnonzero(np.diff(ball, prepend=-1))
+    away = np.min([(1 + ends @ _POLES.T) for ends in places], axis=0)
+    chosen[ball[first]] = np.minimum.reduceat(away, first).argmax(axis=1)
     return chosen
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..exact import locate, nearest_facets, nearest_on_facets
-from ..graphs import delaunay
+from ..graphs import delaunay, grown_from, preferring
 from .splitting import split_edges
 
 #: Samples are at most this share of the local width apart: then a ball through them is at most 1 % too large.
@@ -93,7 +93,9 @@ def local_width(boundary: np.ndarray, places: np.ndarray, normals: np.ndarray) -
 
 
 def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, floor: float | None):
-    """Points and facets of the same boundary with more samples, the given ones first; see `Shape.densify`.
+    """Points and facets of the same boundary with more samples, and their tessellation if it was needed.
+
+    The given ones come first; see `Shape.densify`.
 
     Examples
     --------
@@ -102,26 +104,32 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     16
     """
     if spacing is not None:
-        return _refined(points, facets, lambda pieces, count: np.full(len(pieces), spacing), parts=None)
+        return *_refined(points, facets, None, lambda _, __: spacing, parts=None), None
     boundary = points[facets]
     widths = _widths(boundary, boundary)
     most = MOST + 10 * len(points)
     least = FLOOR[points.shape[1]] * widths.max() if floor is None else floor
 
-    def wanted(pieces, count):
+    def wanted(widths, count):
         nonlocal least, most
         # Needles: the sharper a corner, the more samples for each halving of the width.
         if count > most:
             least, most = 4 * least, most + MOST
-        return SHARE * np.maximum(_widths(boundary, pieces).min(axis=1), least)
+        return SHARE * np.maximum(widths, least)
 
-    points, facets = _refined(points, facets, wanted, parts=2)
+    points, facets = _refined(points, facets, boundary, wanted, parts=2)
+    if points.shape[1] == 3:
+        return points, facets, None
     # What is narrow between the places is shown by the balls of the samples.
-    while points.shape[1] == 2 and len(coarse := _coarse(boundary, points, facets, least)):
-        points, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
+    tessellation, growing = delaunay(points), None
+    while len(coarse := _coarse(boundary, tessellation, facets, least)):
+        more, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
         if not len(cut):
             break  # floats leave no room
-    return points, facets
+        growing = growing or grown_from(tessellation)
+        growing.add(more[len(points) :])
+        points, tessellation = more, growing.tessellation()
+    return points, facets, preferring(tessellation, facets)
 
 
 def _widths(boundary, pieces) -> np.ndarray:
@@ -131,28 +139,37 @@ def _widths(boundary, pieces) -> np.ndarray:
     return local_width(boundary, places.reshape(len(normals), -1), normals).reshape(len(pieces), -1)
 
 
-def _refined(points, facets, wanted, parts):
+def _refined(points, facets, boundary, wanted, parts):
     """Cut facets longer than wanted, into `parts` or as many as that takes, until none is."""
-    fresh = np.arange(len(facets))
+    fresh, widths = np.arange(len(facets)), np.full(len(facets), np.nan)
     while len(fresh):
         pieces = points[facets[fresh]]
         sides = np.linalg.norm(np.roll(pieces, -1, axis=1) - pieces, axis=2)
-        times = sides.max(axis=1) / wanted(pieces, len(points))
+        longest = sides.max(axis=1)
+        # What is short enough for the least width need not know its own.
+        new = np.isnan(widths[fresh]) & (longest > wanted(0.0, len(points)))
+        if boundary is not None and new.any():
+            widths[fresh[new]] = _widths(boundary, pieces[new]).min(axis=1)
+        times = longest / wanted(np.nan_to_num(widths[fresh]), len(points))
         rows = times > 1 + 1e-9
         coarse, times, sides = fresh[rows], times[rows], sides[rows]
         if points.shape[1] == 3:
+            before = facets
             points, facets, fresh = _cut_triangles(points, facets, coarse, sides.argmax(axis=1))
+            widths[(facets[: len(before)] != before).any(axis=1)] = np.nan
         elif parts:
             points, facets, fresh = _cut_segments(points, facets, coarse, np.full(len(coarse), parts))
+            widths[:] = np.nan
         else:
             return _cut_segments(points, facets, coarse, np.ceil(times - 1e-9).astype(int))[:2]
+        widths = np.append(widths, np.full(len(facets) - len(widths), np.nan))
     return points, facets
 
 
-def _coarse(boundary, points, facets, floor) -> np.ndarray:
+def _coarse(boundary, tessellation, facets, floor) -> np.ndarray:
     """Segments too long for a ball of the samples that they touch, or that reaches across them."""
-    pieces = points[facets]
-    centers = delaunay(points).circumcenters
+    pieces = tessellation.points[facets]
+    centers = tessellation.circumcenters
     centers = centers[np.isfinite(centers).all(axis=1)]
     centers = centers[locate(boundary, centers) > 0]
     distance, piece = nearest_facets(pieces, centers)

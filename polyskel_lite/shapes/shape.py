@@ -372,7 +372,8 @@ class Shape(Boundary):
         for name, value in (("spacing", spacing), ("floor", floor)):
             if value is not None and not (isinstance(value, Real) and 0 < value < np.inf):
                 raise InputError(f"{name} is {value!r}; pass a positive length.")
-        return Shape(*densified(self.points, self.facets, spacing, floor))
+        points, facets, tessellation = densified(self.points, self.facets, spacing, floor)
+        return Shape(points, facets) if tessellation is None else Shape.refined(facets, tessellation)
 
     def _samples(self, n: int, start: float) -> list[np.ndarray]:
         only_in(2, self, "sample", "the vertices, or polyskel_lite.implicit.solid for a uniform mesh")

@@ -88,11 +88,16 @@ def independent(candidates: np.ndarray, owners: np.ndarray, keys: np.ndarray) ->
     >>> independent(np.array([0, 1, 2]), np.array([(0, 1), (1, 2), (2, 3)]), np.array([7, 8, 9])).tolist()
     [0, 2]
     """
-    faces, edges, chosen = set(), set(), []
-    for k in candidates.tolist():
-        f, g = owners[k].tolist()
-        if f not in faces and g not in faces and keys[k] not in edges:
-            faces |= {f, g}
-            edges.add(keys[k])
-            chosen.append(k)
-    return np.array(chosen, dtype=np.int64)
+    _, number = np.unique(keys[candidates], return_inverse=True)
+    taken = np.column_stack([owners[candidates], number + owners.max(initial=0) + 1])
+    left, chosen = np.arange(len(candidates)), np.zeros(len(candidates), dtype=bool)
+    while len(left):
+        # The first of all that want it: so it is the first of those that are left, too.
+        first = np.full(taken.max() + 1, len(candidates))
+        np.minimum.at(first, taken[left].ravel(), np.repeat(left, 3))
+        wins = left[(first[taken[left]] == left[:, None]).all(axis=1)]
+        chosen[wins] = True
+        gone = np.zeros(len(first), dtype=bool)
+        gone[taken[wins]] = True
+        left = left[~gone[taken[left]].any(axis=1)]
+    return candidates[chosen]

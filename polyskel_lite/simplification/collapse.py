@@ -6,19 +6,28 @@ without it the same lines run as they are; the results are the same.
 
 from __future__ import annotations
 
-from functools import cache
+import sys
 from heapq import heappop, heappush
 
 import numpy as np
 
+from ..compiling import Loops
 from ..progress import Progress
 
 _RULES = {"branch": 0, "surface": 1, "wireframe": 2}
 _INF = float("inf")
 # Simplices removed between two looks at the keyboard.
 _CHUNK = 500_000
+# For fewer simplices numba is not fetched.
+_COMPILE_FROM = 4_000
+loops = Loops()
+_INTS, _FLOATS = "int64[::1]", "float64[::1]"
 
 
+@loops(
+    f"int64(int64, int64, boolean, {_INTS}, {_INTS}, boolean[::1], {_INTS}, {_FLOATS}, {_FLOATS}, {_FLOATS}, "
+    f"{_FLOATS}, {_FLOATS}, int8[::1], {_INTS}, int64, int64)"
+)
 def remove_in_order(
     size,
     rule,
@@ -154,15 +163,7 @@ def remove_in_order(
                 count[n] -= 1
                 share[n] += share[v] / k
                 todo.append(n)
-
-
-@cache
-def _compiled():
-    try:
-        from numba import njit
-    except ImportError:
-        return None
-    return njit(cache=True)(remove_in_order)
+    return removed
 
 
 def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, compiled: bool | None = None):
@@ -179,7 +180,8 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     alpha : (t, 6) float array or None
     radii : (t,) float array
     compiled : bool, optional
-        Ask for the compiled or the plain loop; by default the compiled one where numba is there.
+        Ask for the compiled or the plain loop; by default the compiled one for many
+        simplices, or where numba is in use.
 
     Returns
     -------
@@ -193,29 +195,31 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     t, size = simplices.shape
     there = neighbors >= 0
     measure = np.zeros((t, size)) if measure is None else measure
-    alpha = np.zeros(0) if alpha is None else np.ascontiguousarray(alpha).ravel()
+    alpha = np.zeros(0) if alpha is None else alpha
     arrays = [
-        np.ascontiguousarray(simplices).ravel(),
-        np.ascontiguousarray(neighbors).ravel(),
+        simplices.ravel(),
+        neighbors.ravel(),
         np.ones(t, dtype=bool),
         there.sum(axis=1),
         np.where(there, 0.0, measure).sum(axis=1),
-        np.ascontiguousarray(measure).ravel(),
-        alpha,
+        measure.ravel(),
+        alpha.ravel(),
         radii,
         np.full(t, np.inf),
         np.zeros(t, dtype=np.int8),
         np.zeros(t, dtype=np.int64),
     ]
-    loop = _compiled() if compiled is None or compiled else None
-    if loop is None:
-        # Python reads lists several times faster than arrays.
-        arrays, loop = [array.tolist() for array in arrays], remove_in_order
+    if compiled is None:
+        compiled = t >= _COMPILE_FROM or "numba" in sys.modules
+    compiled = compiled and loops.can_compile()
+    loop = loops.made(compiled).remove_in_order
+    # Python reads lists several times faster than arrays.
+    filled = arrays if compiled else [array.tolist() for array in arrays]
     removed, stop = 0, 0
     with Progress("hierarchy", t) as progress:
         while removed == stop and removed < t:
             stop = min(removed + _CHUNK, t)
-            removed = loop(size, _RULES[rule], printed, *arrays, removed, stop)
+            removed = loop(size, _RULES[rule], printed, *filled, removed, stop)
             progress.at(removed)
-    share, level, kind, order = (np.asarray(arrays[k]) for k in (4, 8, 9, 10))
-    return level, kind.astype(np.int8), order[:removed].astype(np.int64), share
+    level, kind, order, share = (np.asarray(filled[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
+    return level, kind, order[:removed], share

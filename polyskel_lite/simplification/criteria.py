@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..graphs import OPPOSITE, Tessellation, ordinary
+from ..graphs import OPPOSITE, Tessellation, corners_of, in_blocks, ordinary
 
 
-def _facet_normals(tessellation: Tessellation, rows) -> np.ndarray:
-    """Twice the area vector of each triangle opposite a corner, pointing outward, (4, 3, t)."""
-    corners = tessellation.points.T[:, tessellation.simplices[rows].T]
-    normals = np.empty((4, 3, corners.shape[2]))
-    for i, (a, b, c) in enumerate(OPPOSITE[4]):
-        (ux, uy, uz), (vx, vy, vz) = corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]
-        normals[i] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    return normals
+def _facet_vectors(tessellation: Tessellation, rows) -> np.ndarray:
+    """Of the facet opposite each corner the way (2D) or twice the area vector, outward (3D), (N+1, N, t)."""
+    corners = corners_of(tessellation, rows).T
+    base, *ends = (corners[:, k] for k in OPPOSITE[corners.shape[1]].T)
+    if len(ends) == 1:
+        return (ends[0] - base).swapaxes(0, 1)
+    (ux, uy, uz), (vx, vy, vz) = ends[0] - base, ends[1] - base
+    return np.stack([uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], axis=1)
 
 
 def facet_measures(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
@@ -33,10 +33,12 @@ def facet_measures(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
     [[5.0, 3.0, 4.0]]
     """
     scaled, exponent = ordinary(tessellation)
-    if tessellation.dimension == 3:
-        return np.ldexp(np.sqrt((_facet_normals(scaled, rows) ** 2).sum(axis=1)).T / 2, 2 * exponent)
-    ends = scaled.points[scaled.simplices[rows][:, OPPOSITE[3]]]
-    return np.ldexp(np.sqrt(((ends[:, :, 1] - ends[:, :, 0]) ** 2).sum(axis=2)), exponent)
+
+    def measures(rows):
+        return (np.sqrt((_facet_vectors(scaled, rows) ** 2).sum(axis=1)).T,)
+
+    (found,) = in_blocks(measures, np.arange(len(scaled.simplices))[rows])
+    return np.ldexp(found, exponent) if tessellation.dimension == 2 else np.ldexp(found / 2, 2 * exponent)
 
 
 def face_angles(tessellation: Tessellation, rows=slice(None), dihedral: bool = False) -> np.ndarray:
@@ -65,9 +67,14 @@ def face_angles(tessellation: Tessellation, rows=slice(None), dihedral: bool = F
     >>> (face_angles(corner)[0] / np.pi).round(3).tolist()
     [0.696, 0.696, 0.696, 0.5, 0.5, 0.5]
     """
-    normals = _facet_normals(ordinary(tessellation)[0], rows)
-    normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
-    pairs = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
-    cosine = np.stack([(normals[i] * normals[j]).sum(axis=0) for i, j in pairs], axis=1)
-    angles = np.arccos(np.clip(cosine, -1, 1))
-    return np.pi - angles if dihedral else angles
+    scaled, _ = ordinary(tessellation)
+
+    def angles(rows):
+        normals = _facet_vectors(scaled, rows)
+        normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
+        pairs = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+        cosine = np.stack([(normals[i] * normals[j]).sum(axis=0) for i, j in pairs])
+        return (np.arccos(np.clip(cosine, -1, 1)).T,)
+
+    (found,) = in_blocks(angles, np.arange(len(scaled.simplices))[rows])
+    return np.pi - found if dihedral else found

@@ -209,13 +209,6 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         alpha = face_angles(scaled, inner, dihedral=printed)
     else:
         measure = facet_measures(scaled, inner)
-    level, kind, order, _ = collapse.run(
-        strategy,
-        printed,
-        t.simplices[inner],
-        number[t.neighbors[inner]],
-        measure,
-        alpha,
-        scaled.circumradii[inner],
-    )
+    arrays = t.simplices[inner], number[t.neighbors[inner]], measure, alpha, scaled.circumradii[inner]
+    level, kind, order, _ = collapse.run(strategy, printed, *arrays)
     return Hierarchy(P, strategy, criterion, level, kind, order)

@@ -53,63 +53,57 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     degree = occurrences(ends, n + k)
     # Where branches begin: everything but the inside of a chain; a sheet always.
     stop = (degree[:n] != 2) & (node < 0)
+    begins = np.append(stop, np.ones(k, dtype=bool))
     graph = networkx.MultiGraph()
-    names = {0: "point", 1: "end"}
     for v in np.flatnonzero(stop).tolist():
-        graph.add_node(v, kind=names.get(int(degree[v]), "junction"), **_place(skeleton, v))
+        kind = {0: "point", 1: "end"}.get(int(degree[v]), "junction")
+        graph.add_node(v, kind=kind, **_place(skeleton, v))
     for s, members in enumerate(sheets):
         graph.add_node(n + s, kind="sheet", vertices=members)
-    incident: dict[int, list[tuple[int, int]]] = {}
-    for e, (a, b) in enumerate(ends.tolist()):
-        incident.setdefault(a, []).append((e, b))
-        incident.setdefault(b, []).append((e, a))
-    used = np.zeros(len(wires), dtype=bool)
+    # Inside a chain, the number of the next edge is the sum of its vertex minus the number of the last one.
+    total = np.zeros(n + k, dtype=np.int64)
+    for column in ends.T:
+        np.add.at(total, column, np.arange(len(wires)))
+    first = [(e, side) for e in np.flatnonzero(begins[ends].any(axis=1)).tolist() for side in (0, 1)]
+    total, begins, ends, wires = total.tolist(), begins.tolist(), ends.T.tolist(), wires.T.tolist()
+    used = [False] * len(ends[0])
 
-    def walk(start, e, towards):
-        path, real = [start, towards], [wires[e].tolist()]
-        used[e] = True
-        while towards < n and not stop[towards] and towards != start:
-            e, towards = next((f, b) for f, b in incident[towards] if not used[f])
+    def walk(e, side):
+        start, path = ends[side][e], [wires[side][e]]
+        while True:
             used[e] = True
-            path.append(towards)
-            real.append(wires[e].tolist())
-        _add_branch(graph, skeleton, path, real)
+            path.append(wires[1 - side][e])
+            at = ends[1 - side][e]
+            if begins[at] or at == start:
+                break
+            e = total[at] - e
+            side = int(ends[1][e] == at)
+        if start >= n and len(path) == 2:
+            path = [wires[0][e], wires[1][e]]
+        graph.add_edge(start, at, path=path)
 
-    for start in [*np.flatnonzero(stop).tolist(), *range(n, n + k)]:
-        for e, towards in incident.get(start, []):
-            if not used[e]:
-                walk(start, e, towards)
-    for e in range(len(wires)):  # what is left are closed chains
+    for e, side in sorted(first, key=lambda place: ends[place[1]][place[0]]):
+        if begins[ends[side][e]] and not used[e]:
+            walk(e, side)
+    for e, start in enumerate(ends[0]):  # what is left are closed chains
         if not used[e]:
-            start, towards = ends[e].tolist()
             graph.add_node(start, kind="loop", **_place(skeleton, start))
-            walk(start, e, towards)
+            walk(e, 0)
     paths = [path for _, _, path in graph.edges(data="path")]
     places = np.concatenate([np.zeros(0, dtype=np.intp), *paths]).astype(np.intp)
-    smooth = smooth_lengths(skeleton.vertices[places], skeleton.radii[places], [len(path) for path in paths])
-    for (_, _, data), length in zip(graph.edges(data=True), smooth.tolist(), strict=True):
-        data["smooth_length"] = length
+    points, radii = skeleton.vertices[places], skeleton.radii[places]
+    smooth = smooth_lengths(points, radii, [len(path) for path in paths]).tolist()
+    pieces, radii = np.linalg.norm(np.diff(points, axis=0), axis=1), radii.tolist()
+    end = 0
+    for (_, _, data), length in zip(graph.edges(data=True), smooth, strict=True):
+        at, end = end, end + len(data["path"])
+        data |= {"length": float(pieces[at : end - 1].sum()), "radii": radii[at:end], "smooth_length": length}
     graph.graph["branches"] = sum(kind == "end" for _, kind in graph.nodes(data="kind"))
     return graph
 
 
 def _place(skeleton, v):
     return {"pos": tuple(skeleton.vertices[v].tolist()), "radius": float(skeleton.radii[v])}
-
-
-def _add_branch(graph, skeleton, path, real):
-    """Add the branch along skeleton edges ``real``; ``path`` names its stops, sheets included."""
-    vertices = list(real[0])
-    if len(real) > 1 and vertices[0] in real[1]:
-        vertices.reverse()
-    for a, b in real[1:]:
-        vertices.append(b if a == vertices[-1] else a)
-    if len(real) == 1 and path[0] < len(skeleton.vertices) and vertices[0] != path[0]:
-        vertices.reverse()
-    points = skeleton.vertices[vertices]
-    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-    radii = skeleton.radii[vertices].tolist()
-    graph.add_edge(path[0], path[-1], path=vertices, length=length, radii=radii)
 
 
 def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:

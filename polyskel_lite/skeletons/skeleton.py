@@ -71,7 +71,6 @@ class Skeleton:
         self._check()
         # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
         object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
-        object.__setattr__(self, "polygons", Polygons.of(self.polygons))
         if self.rays is None:
             object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
             object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))

@@ -35,31 +35,23 @@ def dual_complex(
     [[0, 1]]
     """
     number = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
-    sides = tessellation.facet_table[1]
-    both = (number[sides] >= 0).all(axis=1)
-    open_side = (sides[:, 1] < 0) & (number[sides[:, 0]] >= 0)
-    if cut is not None:
-        both &= ~cut
-        open_side &= ~cut
     simplices = np.flatnonzero(keep)
+    crossed = None if cut is None else _local(tessellation, cut)
+    beyond = number[tessellation.neighbors[simplices]]
+    # As in the table of facets: those of the first simplex first, and each from its first simplex.
+    dual = (beyond > np.arange(len(simplices))[:, None]) & (True if cut is None else ~crossed[simplices])
+    edges = np.stack([np.nonzero(dual)[0], beyond[dual]], axis=1)
     polygons = Polygons()
     if tessellation.dimension == 3:
-        crossed = None if cut is None else _local(tessellation, cut)
         polygons = dual_polygons(tessellation.simplices, tessellation.neighbors, number, crossed)
     directions, origins = np.zeros((0, tessellation.dimension)), np.zeros(0, dtype=np.int64)
     if rays:
+        sides = tessellation.facet_table[1]
+        open_side = (sides[:, 1] < 0) & keep[sides[:, 0]] & (True if cut is None else ~cut)
         directions = outward_normals(tessellation, np.flatnonzero(open_side))
         origins = number[sides[open_side, 0]]
-    return Skeleton(
-        vertices=tessellation.circumcenters[simplices],
-        radii=tessellation.circumradii[simplices],
-        simplices=simplices,
-        edges=number[sides[both]],
-        polygons=polygons,
-        rays=directions,
-        ray_vertices=origins,
-        tessellation=tessellation,
-    )
+    balls = tessellation.circumcenters[simplices], tessellation.circumradii[simplices]
+    return Skeleton(*balls, simplices, edges, polygons, directions, origins, tessellation)
 
 
 def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:

@@ -296,7 +296,7 @@ def test_chunks_do_not_change_results(monkeypatch):
     queries = rng.random((500, 2))
     whole = Y.contains(queries), Y.boundary_distance(queries)
     monkeypatch.setattr("polyskel_lite.polyballs.pairs._CHUNK", 700)
-    monkeypatch.setattr("polyskel_lite.polyballs.discs._CHUNK", 700)
+    monkeypatch.setattr("polyskel_lite.polyballs.distance._CHUNK", 700)
     assert (Y.contains(queries) == whole[0]).all()
     assert (Y.boundary_distance(queries) == whole[1]).all()
 

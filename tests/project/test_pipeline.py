@@ -4,6 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
+from truth.meshes import capsule, extruded
 
 import polyskel_lite as psl
 from polyskel_lite.skeletons import smooth_lengths
@@ -64,3 +65,32 @@ def test_chains_do_not_know_of_each_other():
     assert smooth_lengths(points, radii, sizes) == pytest.approx(alone, rel=1e-12)
     assert smooth_lengths(points + 1e6, radii, sizes) == pytest.approx(alone, rel=1e-6)
     assert alone[0] == pytest.approx(np.linalg.norm(points[1] - points[0]), rel=1e-12)
+
+
+SOLIDS = {
+    "box": extruded([(0, 0), (4, 0), (4, 4), (0, 4)], [(0, 1, 2), (0, 2, 3)], 12.0),
+    "prism": extruded([(0, 0), (6, 0), (3, 27**0.5)], [(0, 1, 2)], 10.0),
+    "L": extruded(
+        [(0, 0), (8, 0), (8, 3), (3, 3), (3, 8), (0, 8)], [(0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5)], 3.0
+    ),
+}
+
+
+@pytest.mark.parametrize(("name", "width"), [("box", 2), ("prism", 3**0.5), ("L", 1.5)])
+def test_solids_of_few_corners_have_their_width(name, width):
+    solid = psl.Shape.from_mesh(*SOLIDS[name])
+    bones = psl.skeleton(solid, strategy="wireframe")
+    assert bones.skeleton.betti() == (1, 0, 0)
+    assert bones.quality.ratio < 1.05
+    assert bones.quality.added > 1000
+    assert bones.skeleton.radii.max() == pytest.approx(width, rel=0.05)
+    with pytest.warns(psl.CoarseSamplingWarning):
+        assert psl.skeleton(solid, strategy="wireframe", densify=False).quality.ratio > 1.5
+
+
+def test_a_fine_mesh_keeps_its_samples_and_a_straight_bar_its_length():
+    bones = psl.skeleton(psl.Shape.from_mesh(*capsule(16.0, 24, 60, 8)), strategy="wireframe")
+    assert bones.quality.added == 0
+    (wire,) = bones.branches
+    assert wire.smooth_length == pytest.approx(16, rel=0.01)
+    assert wire.mean_radius == pytest.approx(1, rel=0.02)

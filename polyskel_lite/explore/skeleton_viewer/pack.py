@@ -224,9 +224,7 @@ def pack_hierarchy(packer: Packer, h: Hierarchy) -> dict[str, Any]:
     >>> bool(((rank >= np.searchsorted(levels, 3.0)) == (h.level >= 3.0)).all())
     True
     """
-    rank = np.full(len(h.level), len(h.order))
-    rank[h.order] = np.arange(len(h.order))
-    return {"rank": packer.add(rank), "level": packer.add(h.level[h.order])}
+    return {"rank": packer.add(np.minimum(h.rank, len(h.order))), "level": packer.add(h.level[h.order])}
 
 
 def scale(levels: np.ndarray) -> dict[str, Any]:
