@@ -32,7 +32,7 @@ SIZES = {
     "bumpy sphere": (2_000, 5_000, 10_000, 20_000, 50_000, 100_000),
 }
 PAPER = ("fourbranch", "chromosome", "vertebra")  # the solids of the paper's Fig. 10
-COLUMNS = ("input", "n", "numba", "stage", "seconds", "ratio", "peak_mb", "load")
+COLUMNS = ("input", "n", "numba", "stage", "seconds", "ratio", "peak_mb", "repeats", "load")
 REPEATS = 5
 
 
@@ -162,7 +162,17 @@ def measure(name: str, n: int, numba: bool, repeats: int = REPEATS) -> list[dict
         seconds = np.median([run.seconds[stage] for run in runs])
         ratio = np.median([run.seconds[stage] / run.seconds["scipy"] for run in runs])
         peak = np.median([run.peak[stage] for run in runs])
-        values = (name, n, int(numba), stage, f"{seconds:.4f}", f"{ratio:.4f}", f"{peak:.0f}", _load())
+        values = (
+            name,
+            n,
+            int(numba),
+            stage,
+            f"{seconds:.4f}",
+            f"{ratio:.4f}",
+            f"{peak:.0f}",
+            repeats,
+            _load(),
+        )
         rows.append(dict(zip(COLUMNS, values, strict=True)))
     return rows
 
