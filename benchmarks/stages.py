@@ -34,6 +34,7 @@ SIZES = {
 PAPER = ("fourbranch", "chromosome", "vertebra")  # the solids of the paper's Fig. 10
 COLUMNS = ("input", "n", "numba", "stage", "seconds", "ratio", "peak_mb", "repeats", "load")
 REPEATS = 5
+LARGE = 100_000  # from here on plain Python runs once: it takes long, and what disturbs it counts less
 
 
 class Stages:
@@ -235,7 +236,8 @@ def main(arguments=None) -> None:
     for name, sizes in sizes_of.items():
         for n in (size for size in sizes if size <= options.largest):
             for numba in (True, False):
-                rows += with_memory(name, n, numba, options.repeats)
+                once = n >= LARGE and not numba
+                rows += with_memory(name, n, numba, 1 if once else options.repeats)
                 print(f"{name}, n = {n:,}, {'with' if numba else 'without'} numba", flush=True)
         write(options.out / "results.csv", rows)
     note(options.out, "results.csv", measured)
