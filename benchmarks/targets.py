@@ -31,6 +31,7 @@ HERE = Path(__file__).resolve().parent
 REPEATS, QUICK, PATIENCE = 5, 0.05, 100
 LIMIT = 900  # seconds for one work, then it is stopped
 TRIES = ("first", "second")
+COMPILE = -1  # in place of a work's number
 COLUMNS = (
     *("key", "work", "input", "n", "unit", "before", "reach", "aim"),
     *(f"old_{name}" for name in (*TRIES, "load", "commit", "date")),
@@ -206,6 +207,13 @@ def in_subprocess(number: int, target: Target, repeats: int, library: Path | Non
     return json.loads(done.stdout.splitlines()[-1])
 
 
+def compile_all() -> None:
+    """Let numba compile what the works need into its cache: once on a machine, so not at a first call."""
+    for target in TARGETS:
+        if target.key in ("conform", "whole 3D"):
+            measure(target._replace(n=2_500), repeats=1)
+
+
 def stored(path: Path) -> dict[tuple, dict]:
     """The rows of a file by work, input and size."""
     if not path.exists():
@@ -238,6 +246,9 @@ def main(arguments=None) -> None:
     parser.add_argument("--out", type=Path, default=HERE, help="folder of targets.csv and machine.json")
     parser.add_argument("--one", type=int, help="one measurement, as JSON")
     options = parser.parse_args(arguments)
+    if options.one == COMPILE:
+        compile_all()
+        return
     if options.one is not None:
         target = TARGETS[options.one]
         if target.key == "plain":
@@ -249,6 +260,9 @@ def main(arguments=None) -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     path = options.out / "targets.csv"
     rows = stored(path)
+    for library in filter(None, (options.old, HERE.parent)):
+        command = [sys.executable, __file__, "--one", str(COMPILE)]
+        subprocess.run(command, check=True, env=os.environ | {"PYTHONPATH": str(library)})
     for number, target in enumerate(TARGETS):
         key = (target.key, target.input, target.n)
         if target.n > options.largest or (options.only and target.key not in options.only):
