@@ -66,10 +66,11 @@ figures: $(VENV)/.installed  ## write the paper's figures (PDF, SVG, PNG) to fig
 	@echo "Drawing the paper's figures into figures/ ..."
 	@$(BIN)/python -m polyskel_lite.figures figures/
 
-bench: $(VENV)/.installed  ## measure every stage against scipy's Delaunay (see benchmarks/README.md)
+bench: $(VENV)/.installed  ## measure every stage against scipy's Delaunay, and every target (see benchmarks/README.md)
 	@$(BIN)/python benchmarks/stages.py --largest $(LARGEST)
+	@$(BIN)/python benchmarks/targets.py $(if $(filter 200000,$(LARGEST)),,--largest $(LARGEST))
 
-fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each from SEED (twenty minutes)
+fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each from SEED (an hour)
 	@PYTHONPATH=tests $(BIN)/python -m fuzz --count $(COUNT) --seed $(SEED) --report benchmarks/fuzz.csv
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs

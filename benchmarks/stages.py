@@ -5,7 +5,7 @@
 
 Every input and size runs in a process of its own, once with numba and once with numba hidden; with numba
 once more for the memory, because an allocator that gives memory back at once is slower. Seconds and ratios
-are medians of three runs.
+are medians of five runs after a first one, which is not counted; `targets.py` tells first calls too.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ import csv
 import gc
 import json
 import os
-import platform
 import subprocess
 import sys
 import time
-from importlib.metadata import version
+from functools import partial
 from pathlib import Path
 from unittest.mock import patch
 
@@ -28,12 +27,14 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 SIZES = {
     "curve": (2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000),
+    "curve at random": (2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000),
     "outline": (2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000),
     "bumpy sphere": (2_000, 5_000, 10_000, 20_000, 50_000, 100_000),
 }
 PAPER = ("fourbranch", "chromosome", "vertebra")  # the solids of the paper's Fig. 10
-COLUMNS = ("input", "n", "numba", "stage", "seconds", "ratio", "peak_mb", "load")
-REPEATS = 3
+COLUMNS = ("input", "n", "numba", "stage", "seconds", "ratio", "peak_mb", "repeats", "load")
+REPEATS = 5
+LARGE = 100_000  # from here on plain Python runs once: it takes long, and what disturbs it counts less
 
 
 class Stages:
@@ -52,6 +53,11 @@ class Stages:
         self.seconds[name] = time.perf_counter() - start
         self.peak[name] = max(0.0, _memory() - before)
         return result
+
+    def add(self, name, *parts):
+        """A stage that is the sum of others; its peak is the largest of theirs."""
+        self.seconds[name] = sum(self.seconds[part] for part in parts)
+        self.peak[name] = max(self.peak[part] for part in parts)
 
 
 def _memory(reset: bool = False) -> float:
@@ -87,27 +93,36 @@ def measure_solid(points: np.ndarray) -> Stages:
     stages.run("surface skeleton", lambda: surface.skeleton(np.pi / 3))
     stages.run("wireframe skeleton", lambda: wireframe.skeleton(2 * np.pi))
     stages.run("branches", lambda: wireframe.branches(2 * np.pi))
+    stages.add("whole", "delaunay", "balls", "facets", "surface", "wireframe")
     return stages
 
 
-def measure_region(points: np.ndarray, facets: np.ndarray) -> Stages:
-    """The stages in 2D: a closed curve."""
+def measure_region(points: np.ndarray, facets: np.ndarray, conform: bool = False) -> Stages:
+    """The stages in 2D: a closed curve, whose samples may need more between them."""
     from scipy.spatial import Delaunay
 
     import polyskel_lite as psl
-    from polyskel_lite.containment import delaunay_shapes
+    from polyskel_lite.shapes import shape as shapes
 
     stages = Stages()
     stages.run("scipy", lambda: Delaunay(points))
-    shape = stages.run("shape", lambda: psl.Shape(points, facets))
     t = stages.run("delaunay", lambda: psl.delaunay(points, facets))
-    with patch.object(delaunay_shapes, "delaunay", lambda *_: t):  # what is left: facets and labels
-        P = stages.run("facets", lambda: psl.delaunay_shape(shape))
+    with patch.object(shapes, "delaunay", lambda *_: t):  # what is left: that nothing crosses
+        shape = stages.run("shape", lambda: psl.Shape(points, facets))
+        given = shape.tessellation
+    if conform:
+        shape = stages.run("conform", lambda: psl.conform(shape))
+        t = shape.tessellation
+    else:
+        assert given is t
+    P = stages.run("facets", lambda: psl.delaunay_shape(shape))  # and labels
     stages.run("balls", lambda: t.circumcenters)
     stages.run("sk0", lambda: psl.sk0(P))
     h = stages.run("branch", lambda: psl.hierarchy(P, "branch"))
     stages.run("branch skeleton", lambda: h.skeleton(2 * np.pi))
     stages.run("branches", lambda: h.branches(2 * np.pi))
+    parts = ("delaunay", "shape", *(["conform"] if conform else []), "facets", "balls", "branch")
+    stages.add("whole", *parts)
     return stages
 
 
@@ -131,50 +146,53 @@ def measure(name: str, n: int, numba: bool, repeats: int = REPEATS) -> list[dict
     """Rows of the table for one input and size: the medians over the repeats."""
     import inputs
 
-    import polyskel_lite as psl
-
-    # Compile the hot loop before anything is measured.
-    psl.hierarchy(psl.delaunay_shape(inputs.lobed_curve(200)))
     if name in PAPER:
-        measure_paper(name)  # in 3D it is compiled for other arguments
-        runs = [measure_paper(name) for _ in range(repeats)]
+        one = partial(measure_paper, name)
     elif name == "bumpy sphere":
-        measure_solid(inputs.bumpy_samples(200))
-        points = inputs.bumpy_samples(n)
-        runs = [measure_solid(points) for _ in range(repeats)]
+        one = partial(measure_solid, inputs.bumpy_samples(n))
+    elif name == "curve at random":
+        one = partial(measure_region, *inputs.random_curve(n), conform=True)
     else:
         shape = (inputs.lobed_curve if name == "curve" else inputs.outline)(n)
-        runs = [measure_region(shape.points, shape.facets) for _ in range(repeats)]
+        one = partial(measure_region, shape.points, shape.facets)
+    # What is compiled is loaded, and what is imported late is there, before anything is measured.
+    _warm(name, numba)
+    runs = [one() for _ in range(repeats)]
     rows = []
     for stage in runs[0].seconds:
         seconds = np.median([run.seconds[stage] for run in runs])
         ratio = np.median([run.seconds[stage] / run.seconds["scipy"] for run in runs])
         peak = np.median([run.peak[stage] for run in runs])
-        values = (name, n, int(numba), stage, f"{seconds:.4f}", f"{ratio:.4f}", f"{peak:.0f}", _load())
+        values = (
+            name,
+            n,
+            int(numba),
+            stage,
+            f"{seconds:.4f}",
+            f"{ratio:.4f}",
+            f"{peak:.0f}",
+            repeats,
+            _load(),
+        )
         rows.append(dict(zip(COLUMNS, values, strict=True)))
     return rows
 
 
+def _warm(name: str, numba: bool) -> None:
+    """First calls at a small size; with numba so large that the loops are compiled."""
+    import inputs
+
+    n = 2_500 if numba else 200
+    if name in PAPER:
+        measure_paper(name)
+    elif name == "bumpy sphere":
+        measure_solid(inputs.bumpy_samples(n))
+    else:
+        measure_region(*inputs.random_curve(n), conform=True)
+
+
 def _load() -> str:
     return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-
-
-def machine() -> dict:
-    """What the measurement ran on."""
-    names = ("numpy", "scipy", "numba")
-    model = ""
-    if Path("/proc/cpuinfo").exists():
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-        model = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), "")
-    packages = {name: version(name) for name in names if _installed(name)}
-    return {"python": platform.python_version(), **packages, "cores": os.cpu_count(), "processor": model}
-
-
-def _installed(name: str) -> bool:
-    try:
-        return bool(version(name))
-    except ImportError:
-        return False
 
 
 def in_subprocess(name: str, n: int, numba: bool, repeats: int, **environment: str) -> list[dict]:
@@ -208,21 +226,29 @@ def main(arguments=None) -> None:
             sys.modules["numba"] = None  # importing it fails, as where it is not installed
         print(json.dumps(measure(name, n, numba, options.repeats)))
         return
+    from machine import commit, note
+
     import polyskel_lite as psl
 
-    rows = []
+    rows, measured = [], commit(HERE)
     sizes_of = SIZES | {name: (len(psl.datasets.load(name).points),) for name in PAPER}
+    options.out.mkdir(parents=True, exist_ok=True)
     for name, sizes in sizes_of.items():
         for n in (size for size in sizes if size <= options.largest):
             for numba in (True, False):
-                rows += with_memory(name, n, numba, options.repeats)
+                once = n >= LARGE and not numba
+                rows += with_memory(name, n, numba, 1 if once else options.repeats)
                 print(f"{name}, n = {n:,}, {'with' if numba else 'without'} numba", flush=True)
-    options.out.mkdir(parents=True, exist_ok=True)
-    with open(options.out / "results.csv", "w", newline="", encoding="utf-8") as file:
+        write(options.out / "results.csv", rows)
+    note(options.out, "results.csv", measured)
+
+
+def write(path: Path, rows: list[dict]) -> None:
+    """Write what has been measured so far."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    (options.out / "machine.json").write_text(json.dumps(machine(), indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from types import FunctionType, SimpleNamespace
+from types import CodeType, FunctionType, SimpleNamespace
 from zlib import crc32
 
 _OPTIONS = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
@@ -81,17 +81,22 @@ class Loops:
         """Names, functions with globals of their own, and signatures."""
         # numba's cache watches one file only: names that tell the code so far make it watch what is called.
         called = self._base._sources if self._base else []
-        stamp = crc32(repr([(f.__code__.co_code, f.__code__.co_consts) for f, *_ in called]).encode())
+        stamp = crc32(repr([_written(f.__code__) for f, *_ in called]).encode())
         copies = []
         for function, signature, stands_for in self._sources:
             code = function.__code__
-            stamp = crc32(repr((code.co_code, code.co_consts, constants)).encode(), stamp)
+            stamp = crc32(repr((_written(code), constants)).encode(), stamp)
             if compiled or not stands_for:
                 copy = FunctionType(code, function.__globals__ | constants)
                 name = stands_for or function.__name__
                 copy.__qualname__, copy.__module__ = f"{name}_{stamp}", function.__module__
                 copies.append((name, copy, signature))
         return copies
+
+
+def _written(code: CodeType) -> tuple:
+    """What a function does, the same in every process: code inside of it has an address when written."""
+    return code.co_code, [_written(c) if isinstance(c, CodeType) else c for c in code.co_consts]
 
 
 def _njit():

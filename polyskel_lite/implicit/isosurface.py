@@ -163,7 +163,7 @@ def spread(field, points: np.ndarray, weights: np.ndarray, n: int, spacing: floa
         centers[once] = points[nearest[once]]
     samples, moved = project(field, centers, 0.2 * spacing, rounds=8)
     samples = samples[moved < 1e-3 * spacing]
-    # Samples on a sphere up to rounding are the one thing that Qhull cannot do: leave it by a little more.
+    # Of samples on a sphere up to rounding, nearly every sign would be in doubt: leave it by a little more.
     return samples + 1e-5 * spacing * random.uniform(-1, 1, samples.shape)
 
 
