@@ -391,9 +391,12 @@ def collect(rows, T, A, labels, begin, number, simplices, neighbors):
         origin[at] = t
     for at in range(len(origin)):
         number[origin[at]] = at
-    for at in range(len(origin)):
-        t = origin[at]
+    for t in range(rows):
+        at = number[t]
+        if at < 0:
+            continue
         for i in range(M):
+            v = labels[T[M * t + i]]
             for j in range(M):
-                if labels[T[M * t + i]] == simplices[at, j]:
+                if simplices[at, j] == v:
                     neighbors[at, j] = number[A[M * t + i]]

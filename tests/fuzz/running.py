@@ -85,6 +85,10 @@ def _limit() -> None:
 
 def _work(family: str, seed: int, numbers: range, pipe) -> None:
     _limit()
+    from polyskel_lite import compiling
+
+    if compiling.Loops.can_compile():
+        compiling.main()  # once on a machine it takes long; a case shall not pay for it
     os.chdir(tempfile.mkdtemp(prefix="fuzz-"))  # "words" is the name of a file too
     for number in numbers:
         begin = time.perf_counter()
@@ -115,8 +119,8 @@ def run_family(family: str, count: int, seed: int = 0, *, progress: bool = False
         there.close()
         while done < count:
             try:
-                # The first case of a process pays for its imports.
-                if not here.poll(LATE + 30):
+                # The first case of a process waits for its imports and for what is compiled.
+                if not here.poll(LATE + 90):
                     raise TimeoutError
                 number, what, words, seconds = here.recv()
             except (EOFError, TimeoutError) as error:
