@@ -59,23 +59,24 @@ class Loops:
             made = vars(self._base.made(compiled)).copy() if self._base else {}
             for name, function, signature in self._copies(compiled, constants):
                 function.__globals__.update(made)
-                made[name] = _njit()(signature, **_OPTIONS)(function) if compiled else function
+                made[name] = _compiled(function, signature) if compiled else function
             self._made[key] = SimpleNamespace(**made)
         return self._made[key]
 
     @staticmethod
     def can_compile() -> bool:
-        """Whether numba is there."""
+        """Whether numba is there, works, and is not told to leave everything as it is."""
         try:
-            return bool(_njit())
-        except ImportError:
+            from numba import config
+        except Exception:  # a numba that does not go with NumPy raises all kinds of errors
             return False
+        return not config.DISABLE_JIT
 
     def is_cached(self, **constants) -> bool:
         """Whether the compiled functions are in numba's cache; needs numba."""
         _, last, _ = self._copies(True, constants)[-1]
-        path = Path(_njit()(**_OPTIONS)(last).stats.cache_path)
-        return any(path.glob(f"*{last.__qualname__}*.nbi"))
+        path = _compiled(last).stats.cache_path
+        return path is not None and any(Path(path).glob(f"*{last.__qualname__}*.nbi"))
 
     def _copies(self, compiled, constants) -> list[tuple[str, FunctionType, str]]:
         """Names, functions with globals of their own, and signatures."""
@@ -99,10 +100,13 @@ def _written(code: CodeType) -> tuple:
     return code.co_code, [_written(c) if isinstance(c, CodeType) else c for c in code.co_consts]
 
 
-def _njit():
+def _compiled(function, *signature):
     from numba import njit
 
-    return njit
+    try:
+        return njit(*signature, **_OPTIONS)(function)
+    except RuntimeError:  # there is no folder that the cache could be written to
+        return njit(*signature, **_OPTIONS | {"cache": False})(function)
 
 
 def main() -> None:

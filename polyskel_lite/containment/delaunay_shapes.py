@@ -43,7 +43,8 @@ class DelaunayShape:
                 f"inner has shape {inner.shape} and type {inner.dtype}; pass one bool for each of the "
                 f"{len(self.tessellation.simplices)} simplices."
             )
-        object.__setattr__(self, "inner", inner)
+        object.__setattr__(self, "inner", inner.copy())
+        self.inner.setflags(write=False)
 
     @property
     def dimension(self) -> int:

@@ -205,7 +205,7 @@ class Growing:
         )
 
     def _insert(self, numbers, start) -> None:
-        ranks = self._ranks if self.compiled else self._ranks.tolist()
+        ranks = self._ranks if self.compiled else self._exact_ranks().tolist()
         end = len(self._order)
         with Progress("Delaunay tessellation", end) as progress:
             while start < end:
@@ -216,6 +216,14 @@ class Growing:
                 if start < stop:
                     self._widen()
                 progress.at(start)
+
+    def _exact_ranks(self) -> np.ndarray:
+        """Ranks that decide alone where the scaled coordinates of different points may be equal."""
+        points = self.points[self._order]
+        if _exact(points):
+            return self._ranks
+        rows = np.column_stack([self._ranks, points])
+        return np.unique(rows, axis=0, return_inverse=True)[1].ravel()
 
     def _widen(self) -> None:
         more = len(self._mark)

@@ -83,8 +83,13 @@ class Tessellation:
         new._keep(points, simplices.astype(np.int64, copy=False), neighbors.astype(np.int64, copy=False))
         return new
 
+    def __getstate__(self):
+        # What it was read off grows with one tessellation only, and its loops cannot be pickled.
+        return {name: value for name, value in self.__dict__.items() if name != "_growing"}
+
     def _keep(self, points, simplices, neighbors):
-        points.setflags(write=False)
+        for array in (points, simplices, neighbors):
+            array.setflags(write=False)
         self.__dict__.update(points=points, simplices=simplices, neighbors=neighbors)  # it is frozen
 
     @property

@@ -197,8 +197,8 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     measure = np.zeros((t, size)) if measure is None else measure
     alpha = np.zeros(0) if alpha is None else alpha
     arrays = [
-        simplices.ravel(),
-        neighbors.ravel(),
+        simplices.flatten(),
+        neighbors.flatten(),
         np.ones(t, dtype=bool),
         there.sum(axis=1),
         np.where(there, 0.0, measure).sum(axis=1),

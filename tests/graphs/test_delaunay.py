@@ -1,5 +1,8 @@
 """Delaunay tessellations against their definition."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -91,3 +94,23 @@ def test_circumcenters_of_needles():
     assert radii[0] == pytest.approx(1 / (8 * height), rel=1e-12)
     flat, _ = psl.graphs.circumballs(np.array([[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]]))
     assert not np.isfinite(flat).any()
+
+
+def test_copies_and_pickles():
+    """What a tessellation was read off has loops that cannot be pickled, and serves one tessellation only."""
+    square = psl.delaunay([(0, 0), (2, 0), (2, 2), (0, 2)])
+    for again in (pickle.loads(pickle.dumps(square)), copy.deepcopy(square), copy.copy(square)):
+        assert np.array_equal(again.simplices, square.simplices)
+        assert "_growing" not in again.__dict__
+
+
+def test_arrays_stay_as_they_were_checked():
+    """A shape keeps its tessellation: whoever could write into it would change later results."""
+    shape = psl.Shape.from_rings([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+    inner = np.ones(2, dtype=bool)
+    region = psl.DelaunayShape(shape.tessellation, inner)
+    inner[:] = False
+    assert region.inner.all()
+    for array in (shape.points, shape.tessellation.simplices, shape.tessellation.neighbors, region.inner):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0

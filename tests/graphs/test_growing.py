@@ -9,6 +9,7 @@ import pytest
 from truth.point_sets import FAMILIES, draw
 
 import polyskel_lite as psl
+from polyskel_lite.compiling import Loops
 from polyskel_lite.exact import components, in_ball, orientation
 from polyskel_lite.exact.signs import loops as sign_loops
 from polyskel_lite.exact.signs import whole_numbers
@@ -156,6 +157,18 @@ def test_where_scaling_loses_digits():
     assert np.array_equal(late.simplices_and_neighbors()[0], grown.simplices_and_neighbors()[0])
 
 
+def test_points_that_scaling_makes_equal():
+    """What is lost in scaling decides neither ties nor which points are equal; it went on for ever."""
+    least = 2.0**-1074
+    points = np.array([(0, 0), (least, 0), (2 * least, 0), (10, 0), (0, 10)])
+    simplices, neighbors = Growing(points).simplices_and_neighbors()
+    assert problem(points, simplices, neighbors) == ""
+    order = [3, 1, 4, 0, 2]
+    assert rows(Growing(points[order]).simplices_and_neighbors()[0], points[order]) == rows(simplices, points)
+    with pytest.raises(psl.DuplicatePointError, match="points 1 and 5"):
+        Growing(np.concatenate([points, points[1:2]]))
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_qhull_and_the_loops_agree(dimension, monkeypatch):
     """Small sets without ties go through Qhull, unless compiled loops are at hand."""
@@ -195,6 +208,27 @@ def test_without_numba_the_loops_are_plain(monkeypatch):
     assert np.array_equal(
         grown.simplices_and_neighbors()[0], Growing(points, compiled=True).simplices_and_neighbors()[0]
     )
+
+
+def test_a_numba_that_shall_not_compile(monkeypatch):
+    config = pytest.importorskip("numba").config
+    monkeypatch.setattr(growing, "_used", set())
+    monkeypatch.setattr(config, "DISABLE_JIT", True)
+    assert not Growing(draw("box", 0, 3, 300)).compiled
+
+
+def test_no_folder_for_the_cache(monkeypatch):
+    """A library that belongs to another user, and no home: numba refuses to cache, not to compile."""
+    caching = pytest.importorskip("numba.core.caching")
+    monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
+    loops = Loops()
+    loops("int64(int64)")(_twice)
+    assert not loops.is_cached()
+    assert loops.made(True)._twice(4) == 8
+
+
+def _twice(a):
+    return 2 * a
 
 
 def test_small_sets_compile_nothing(monkeypatch):
