@@ -85,26 +85,16 @@ def inside(P, W, R, a, b, c, d, e):
 @loops(f"int64({_SET}, {_INTS}, {_INTS}, int64, int64)")
 def conflict(P, W, R, T, A, t, p):
     """+1 where p is inside the ball of simplex t, or beyond the hull's facet of ghost t."""
-    a = T[M * t]
-    b = T[M * t + 1]
-    c = T[M * t + 2]
-    d = T[M * t + N]
     g = -1
-    if a < 0:
-        g = 0
-        a = p
-    elif b < 0:
-        g = 1
-        b = p
-    elif c < 0:
-        g = 2
-        c = p
-    elif d < 0:
-        g = 3
-        d = p
+    for i in range(M):
+        g = i if T[M * t + i] < 0 else g
     if g < 0:
-        return inside(P, W, R, a, b, c, d, p)
-    s = turn(P, W, a, b, c, d if N == 3 else c)
+        return inside(P, W, R, T[M * t], T[M * t + 1], T[M * t + 2], T[M * t + N], p)
+    a = p if g == 0 else T[M * t]
+    b = p if g == 1 else T[M * t + 1]
+    c = p if g == 2 else T[M * t + 2]
+    d = p if g == 3 else T[M * t + N]
+    s = turn(P, W, a, b, c, d)
     if s != 0:
         return s
     # In the plane of the hull's facet: inside its disk exactly when inside the ball behind it.
