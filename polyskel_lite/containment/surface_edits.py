@@ -60,6 +60,7 @@ def _gentle(points, old, new) -> np.ndarray:
     """Whether the four faces have an area and look in about the same direction."""
     flat = ~shadow_signs(points[new.reshape(-1, 3)]).any(axis=1).reshape(-1, 2)
     normals = []
+    points = np.ldexp(points, -np.frexp(np.abs(points).max())[1])  # areas of any unit are ordinary floats
     for pair in (old, new):
         p = points[pair]
         normal = np.cross(p[:, :, 1] - p[:, :, 0], p[:, :, 2] - p[:, :, 0])

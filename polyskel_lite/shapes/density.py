@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..checks import MOST_POINTS
+from ..errors import InputError
 from ..exact import locate, nearest_facets, nearest_on_facets
 from ..graphs import delaunay, grown_from, preferring
 from .splitting import split_edges
@@ -104,6 +106,7 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     16
     """
     if spacing is not None:
+        _check_count(points[facets], spacing)
         return *_refined(points, facets, None, lambda _, __: spacing, parts=None), None
     boundary = points[facets]
     widths = _widths(boundary, boundary)
@@ -130,6 +133,21 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
         growing.add(more[len(points) :])
         points, tessellation = more, growing.tessellation()
     return points, facets, preferring(tessellation, facets)
+
+
+def _check_count(boundary, spacing) -> None:
+    """Raise `InputError` where the spacing asks for more vertices than a tessellation can have."""
+    u = boundary[:, 1:] - boundary[:, :1]
+    with np.errstate(over="ignore", invalid="ignore"):
+        if boundary.shape[1] == 2:
+            count = (np.linalg.norm(u[:, 0], axis=1) / spacing).sum()
+        else:  # two triangles to a vertex, none larger than the equilateral one
+            area = np.linalg.norm(np.cross(u[:, 0] / spacing, u[:, 1] / spacing), axis=1).sum() / 2
+            count = area / (3**0.5 / 4) / 2
+    if not count < MOST_POINTS:
+        raise InputError(
+            f"spacing is {spacing:g}, which takes more than {MOST_POINTS:,} vertices; pass a larger one."
+        )
 
 
 def _widths(boundary, pieces) -> np.ndarray:

@@ -182,7 +182,8 @@ def turn_of_surface(triangles: np.ndarray) -> int:
     >>> turn_of_surface(points[[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]])
     -1
     """
-    volume, size = signed_volume(triangles), np.ptp(triangles.reshape(-1, 3), axis=0).max()
+    scaled = np.ldexp(triangles, -np.frexp(np.abs(triangles).max())[1])  # in any unit volumes are floats
+    volume, size = signed_volume(scaled), np.ptp(scaled.reshape(-1, 3), axis=0).max()
     # Each of the 6 m products is off by a few units; far outside of that the sign is sure.
     if abs(volume) > 1e-13 * len(triangles) * size**3:
         return 1 if volume > 0 else -1

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Real
 from os import PathLike
 
 import numpy as np
 
-from ..checks import as_flag, as_indices, as_path, as_points, check_distinct
+from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
 from ..errors import InputError, PolyskelError, ShapeError, TessellationError
 from ..exact import locate, locate_in_mesh
 from ..files import read_file, trace, write_surface
@@ -361,7 +360,7 @@ class Shape(Boundary):
         Raises
         ------
         InputError
-            If spacing or floor is not a positive length.
+            If spacing or floor is not a positive length, or the spacing asks for too many vertices.
 
         Examples
         --------
@@ -369,9 +368,10 @@ class Shape(Boundary):
         >>> len(plan.densify(1.0).points), plan.densify().area()
         (48, 80.0)
         """
-        for name, value in (("spacing", spacing), ("floor", floor)):
-            if value is not None and not (isinstance(value, Real) and 0 < value < np.inf):
-                raise InputError(f"{name} is {value!r}; pass a positive length.")
+        spacing, floor = (
+            None if value is None else as_number(value, name, "a positive length", 0, above=True)
+            for name, value in (("spacing", spacing), ("floor", floor))
+        )
         points, facets, tessellation = densified(self.points, self.facets, spacing, floor)
         return Shape(points, facets) if tessellation is None else Shape.refined(facets, tessellation)
 

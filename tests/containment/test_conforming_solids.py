@@ -1,5 +1,7 @@
 """Containment in space: missing faces are named, conform repairs or refuses."""
 
+import warnings
+
 import numpy as np
 import pytest
 from truth.solids import FIELDS, random_solids, solid
@@ -93,3 +95,23 @@ def test_right_angles_and_thin_walls_need_no_vertex():
 def test_by_default_solids_conform_to_delaunay():
     shape = stretched(solid("torus"), 3.0)
     assert not len(psl.missing_facets(psl.conform(shape)))
+
+
+@pytest.mark.parametrize("exponent", [-660, -500, 340])
+def test_the_unit_does_not_matter(exponent):
+    """An L whose flat faces have to be cut another way: areas of 1e-300, or of 1e200 and their squares."""
+    outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    points = np.array([(x, y, z) for z in (0, 1) for x, y in outline], dtype=float)
+    floor = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)])
+    walls = [
+        f
+        for i, j in zip(range(6), (1, 2, 3, 4, 5, 0), strict=True)
+        for f in ((i, j, j + 6), (i, j + 6, i + 6))
+    ]
+    faces = np.concatenate([floor[:, ::-1], floor + 6, walls])
+    shape = psl.Shape.from_mesh(points, faces)
+    ordinary = psl.conform(shape)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scaled = psl.conform(psl.Shape.from_mesh(np.ldexp(points, exponent), faces))
+    assert np.array_equal(scaled.facets, ordinary.facets)

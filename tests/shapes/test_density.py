@@ -74,3 +74,12 @@ def test_needles_end():
     """Where the floor is raised, one more round of halving, which doubles the samples, may be under way."""
     needle = psl.Shape.from_rings([[(0, 0), (1.1, 2e-2), (1.2, 0)]])
     assert MOST < len(needle.densify().points) < 3 * (MOST + 10 * 3)
+
+
+@pytest.mark.parametrize("spacing", [1e-9, 1e-200, 10**400])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_spacing_that_would_take_all_memory(spacing, dimension):
+    corner = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    shape = plan("L") if dimension == 2 else psl.Shape.from_mesh(np.eye(4, 3, -1), corner)
+    with pytest.raises(psl.InputError, match="spacing is"):
+        shape.densify(spacing)
