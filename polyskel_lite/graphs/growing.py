@@ -107,7 +107,7 @@ class Growing:
         for place, k in zip((2, 3), dict.fromkeys(corners), strict=False):
             order[[place, k]] = order[[k, place]]
         self._order, self._ranks = order, ranks[order]
-        room = (3 if self.dimension == 2 else 8) * n + 64
+        room = (3 if self.dimension == 2 else 9) * n + 64
         self._table, self._across = (
             self._new(room * (self.dimension + 1), DEAD),
             self._new(room * (self.dimension + 1), 0),

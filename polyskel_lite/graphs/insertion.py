@@ -212,7 +212,7 @@ def insert(P, W, R, start, end, T, A, mark, free, state):
         t = walk(P, W, T, A, last, p)
         for i in range(M):
             v = T[M * t + i]
-            if v >= 0 and not before(P, R, v, p) and not before(P, R, p, v):
+            if v >= 0 and P[N * v] == P[N * p] and not before(P, R, v, p) and not before(P, R, p, v):
                 state[TWICE] = v
                 return p
         # Simplices whose balls hold p, and their border.
