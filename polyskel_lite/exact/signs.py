@@ -1,9 +1,8 @@
 """One sign at a time, exact, for loops that decide millions: where a point is from a plane or a ball.
 
-Three steps: floats with an error bound; twice as many digits with a bound again; whole numbers. `loops`
-holds the functions, to be compiled or not. In all of them ``P`` has coordinate k of point v at P[n v + k],
-scaled by a power of two to below one, and ``W`` is what `whole_numbers` makes of the same points. In plain
-Python the second step is left out: its whole numbers are as quick.
+Floats with an error bound decide nearly everything, whole numbers the rest. `loops` holds the functions, to
+be compiled or not. In all of them ``P`` has coordinate k of point v at P[n v + k], scaled by a power of two to
+below one, and ``W`` is what `whole_numbers` makes of the same points.
 
 The bounds. With u = 2**-53 every operation errs by a factor of at most 1 + u. A term that went through k of
 them errs by k u of itself, so the sum of the terms' sizes times their largest k, times u, bounds the error:
@@ -12,8 +11,6 @@ k counts the differences, products and sums on the way of a term. ``_TINY`` cove
 References
 ----------
 Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997.
-Joldes, Muller and Popescu, Tight and rigorous error bounds for basic building blocks of double-word
-arithmetic, 2017 (sums and products of pairs of floats: relative errors of at most 3 and 5 times u**2).
 """
 
 from __future__ import annotations
@@ -31,7 +28,7 @@ _TINY = 1e-280
 
 
 def whole_numbers(points: np.ndarray, compiled: bool):
-    """What the third step needs to read the points (n, N) as whole numbers.
+    """The points (n, N) as whole numbers, or what it takes to read them so.
 
     Returns
     -------
