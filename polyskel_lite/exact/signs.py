@@ -1,8 +1,8 @@
 """One sign at a time, exact, for loops that decide millions: where a point is from a plane or a ball.
 
 Floats with an error bound decide nearly everything, whole numbers the rest. `loops` holds the functions, to
-be compiled or not. In all of them ``P`` has coordinate k of point v at P[n v + k], scaled by a power of two to
-below one, and ``W`` is what `whole_numbers` makes of the same points.
+be compiled or not. In all of them ``P`` has coordinate k of point v at P[n v + k], scaled by a power of two
+to below one, and ``W`` is what `whole_numbers` makes of the same points.
 
 The bounds. With u = 2**-53 every operation errs by a factor of at most 1 + u. A term that went through k of
 them errs by k u of itself, so the sum of the terms' sizes times their largest k, times u, bounds the error:
