@@ -195,22 +195,22 @@ class Explore(WithStandIn):
         nowhere.png: there is no such file; check the path 'nowhere.png'.
         """
         self.chain, self.error, self.picture = None, None, None
-        self._links.value = ""
+        self._links.value, self._place.children = "", ()  # no picture of the last shape under the next name
         try:
             way = self.chain = chain(source, **options)
         except PolyskelError as error:
-            self.error, self._place.children = error, ()
+            self.error = error
             self._say(str(error), alert=True)
             return
-        self._say(chain_text(way))
         self.picture = viewer(
             list(way.hierarchies),
             threshold=FIRST_THRESHOLD[way.given.dimension],
             alt=f"The shape {way.name} and its skeleton, simplified at a threshold that you choose.",
         )
         self.picture.observe(lambda _: self.update(), ["threshold", "strategy"])
-        self._place.children = (self.picture, self._results)
         self.update()
+        self._place.children = (self.picture, self._results)
+        self._say(chain_text(way))
 
     @property
     def hierarchy(self) -> Hierarchy | None:
