@@ -205,7 +205,7 @@ class Polyball(BallBoundary):
 
         Parameters
         ----------
-        statement : "corrected" or "as printed"
+        statement : "corrected" or "transcript"
 
         Returns
         -------
@@ -237,10 +237,10 @@ class Polyball(BallBoundary):
         Examples
         --------
         >>> row = Polyball([(0, 0, 0), (0.5, 0, 0), (1, 0, 0)], [1, 1, 1])
-        >>> row.skeleton().edges.tolist(), len(row.skeleton("as printed").vertices)
+        >>> row.skeleton().edges.tolist(), len(row.skeleton("transcript").vertices)
         ([[0, 1], [1, 2]], 0)
         """
-        as_choice(statement, "statement", ("corrected", "as printed"))
+        as_choice(statement, "statement", ("corrected", "transcript"))
         pairs = self.touching()
         if len(pairs):
             i, j = pairs[0]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 #: The strategies there are, by dimension; the first one is the default.
 STRATEGIES = {2: ("branch",), 3: ("surface", "wireframe")}
-_CRITERIA = ("corrected", "as printed")
+_CRITERIA = ("corrected", "transcript")
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Hierarchy:
     strategy : str
         "branch", "surface" or "wireframe".
     criterion : str
-        "corrected" or "as printed".
+        "corrected" or "transcript".
     level : (k,) float array
         For each inner simplex (in the order of ``np.flatnonzero(P.inner)``, which is that of the
         vertices of ``sk0(P)``) the threshold at which it goes: -inf if it goes systematically before
@@ -158,7 +158,7 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         "surface": hats go systematically, a salient tetrahedron goes when the angle between the outward
         normals of its two boundary faces is below the threshold. "wireframe": salients go
         systematically, a hat goes when p/r², boundary area over squared radius, is below the threshold.
-    criterion : "corrected" or "as printed"
+    criterion : "corrected" or "transcript"
         The paper prints the dihedral angle, p/r and, in 2D, the whole perimeter of A(v); see section 4.3
         of the book for what that does.
 
@@ -200,7 +200,7 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         raise InputError(
             f"strategy {strategy!r} is not for {P.dimension}D shapes; choose {' or '.join(fitting)}."
         )
-    t, printed, inner = P.tessellation, criterion == "as printed", np.flatnonzero(P.inner)
+    t, printed, inner = P.tessellation, criterion == "transcript", np.flatnonzero(P.inner)
     # The outer simplices take no part: only the inner ones are numbered, measured and removed.
     number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
     measure = alpha = None

@@ -23,6 +23,8 @@ import polyskel_lite as psl
 #: The counterexamples of the register, by name.
 RIGHT_TRIANGLE = [(0, 0), (0, 1), (1, 0)]
 HEXAGON = [(0, 0), (2, 0), (0, -1), (-1, 0), (0, 1), (1, 1)]
+#: The same in general position: no four are cocircular.
+HEPTAGON = [(1, 0), (3, 3), (0, 2), (-4, 0), (0, -1), (2, -1), (3, 0)]
 EMPTY = [(0, 0), (0, 1), (1, 2)]
 DISCONNECTED = [(0, 0), (0, 1), (1, 1), (0, 2), (2, 1)]
 SWALLOWED = [(0, 0), (0, 3), (-3, 1), (-2, -2), (1, -2), (3, 0)]

@@ -20,7 +20,7 @@ from .geometry import (
     skew_lines,
     squared,
 )
-from .registry import check, definition, misprint, reproduced, verdict
+from .registry import check, definition, drawn, transcript, verdict
 
 
 @cache
@@ -163,7 +163,7 @@ def cost_of_the_graph():
     # A bound holds if the quotient stays; doubling n must not raise it by more than a quarter.
     grows = all(b > 1.25 * a for a, b in pairwise(per_floor))
     stays = max(per_ceiling) < 0.25
-    return misprint(printed=not grows, repaired=stays)
+    return transcript(stands=not grows, other=stays)
 
 
 @check("def-gabriel")
@@ -204,7 +204,7 @@ def gabriel_in_delaunay():
         strict &= set(map(frozenset, pairs)) <= delaunay
     a, b, c, d = rational([(0, 0), (1, 0), (1, 1), (0, 1)])
     crossing = open_gabriel(a, c, [a, b, c, d]) and open_gabriel(b, d, [a, b, c, d])
-    return verdict(printed=not crossing, repaired=strict)
+    return verdict(stands=not crossing, repaired=strict)
 
 
 @check("gabriel-by-voronoi-2d")
@@ -242,19 +242,19 @@ def gabriel_by_voronoi_in_space():
     assert np.allclose([above[:2], below[:2]], np.array(center[:2], dtype=float), atol=1e-12)
     a, b, c, m = (p[:2] for p in (*face, center))  # all in the plane z = 0
     meets = len({turn(a, b, m), turn(b, c, m), turn(c, a, m)}) == 1
-    return verdict(printed=gabriel == meets)
+    return verdict(stands=gabriel == meets)
 
 
-@check("misprint-n-face")
+@check("transcript-n-face")
 def face_dimension():
     """The facets of the Gabriel graph have N points, so they are (N-1)-faces: segments, triangles."""
     corners = {2: psl.gabriel(integer_sets()[0]).shape[1], 3: psl.gabriel(OBTUSE_IN_3D).shape[1]}
-    return misprint(
-        printed=all(k == n + 1 for n, k in corners.items()), repaired=all(k == n for n, k in corners.items())
+    return transcript(
+        stands=all(k == n + 1 for n, k in corners.items()), other=all(k == n for n, k in corners.items())
     )
 
 
 @check("fig-2")
 def figures():
-    reproduced("figure_2_3d", 3)
-    return reproduced("figure_2", 3)
+    drawn("figure_2_3d", 3)
+    return drawn("figure_2", 3)

@@ -9,12 +9,12 @@ import numpy as np
 import polyskel_lite as psl
 
 from .geometry import annulus, coarse_regions, ellipse, ends, flower, ring
-from .registry import check, definition, misprint, reproduced, verdict
+from .registry import check, definition, drawn, transcript, verdict
 
 
 @check("fig-1")
 def figure():
-    return reproduced("figure_1", 1)
+    return drawn("figure_1", 1)
 
 
 @check("def-skeleton")
@@ -124,12 +124,12 @@ def polyball():
     return definition(bool(same) and abs(area - (2 * np.pi - lens)) < 1e-12)
 
 
-@check("misprint-element-of")
+@check("transcript-element-of")
 def element_of():
     """A shape, a polygon, a sample set are subsets of the plane, not single points of it."""
     shapes = coarse_regions()
     points = any(len(shape.points) == 1 for shape in shapes)
-    return misprint(printed=points, repaired=all(shape.area() > 0 for shape in shapes))
+    return transcript(stands=points, other=all(shape.area() > 0 for shape in shapes))
 
 
 @check("def-density")

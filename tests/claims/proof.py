@@ -18,7 +18,7 @@ from .geometry import (
     touches,
 )
 from .graphs import integer_sets, rational
-from .registry import check, reproduced, verdict
+from .registry import check, drawn, verdict
 
 
 def obtuse_triangles(vertices):
@@ -67,7 +67,7 @@ def the_point_left_out():
     samples, segments = exact(corner)
     on_boundary = open_gabriel_boundary(corner) and location(circumcenter(*samples), segments) == 0
     strict = all(location(v, exact(shape)[1]) != 0 for shape in gabriel_regions() for v in elements(shape)[0])
-    return verdict(printed=not on_boundary, repaired=strict)
+    return verdict(stands=not on_boundary, repaired=strict)
 
 
 @check("proof-quadrilateral")
@@ -99,4 +99,4 @@ def the_quadrilateral():
 
 @check("fig-13")
 def figure():
-    return reproduced("figure_13", 2)
+    return drawn("figure_13", 2)

@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 #: The closed vocabulary of verdicts, each with what it says.
 VERDICTS = {
-    "holds": "true as the paper prints it",
+    "holds": "true, read in the most charitable way that makes sense; the reading is named",
     "holds under": "true once the condition named beside it is added; without it there is a counterexample",
-    "false as printed": "there is a counterexample that meets every condition the paper names",
-    "misprint": "a slip of the pen; only one other reading makes sense",
+    "does not hold": "there is a counterexample that meets every condition the paper names",
+    "transcript": "our transcript has words that make no sense; one other reading does",
     "definition": "says what a word means; the library computes the same thing",
-    "figure reproduced": "a picture; the library draws its own version, with its own data",
+    "seen on our own data": "what the paper reports of its own data or machine; seen again with data of ours",
 }
 
 #: Claim id -> function without arguments that returns the verdict.
@@ -29,16 +29,16 @@ def check(claim: str) -> Callable[[Callable[[], str]], Callable[[], str]]:
     return register
 
 
-def verdict(printed: bool, repaired: bool | None = None) -> str:
-    """The verdict of an assertion: is it true as printed, and if not, is it true under the condition?"""
-    if printed:
+def verdict(stands: bool, repaired: bool | None = None) -> str:
+    """The verdict of an assertion: is it true as it stands, and if not, is it true under the condition?"""
+    if stands:
         return "holds"
-    return "holds under" if repaired else "false as printed"
+    return "holds under" if repaired else "does not hold"
 
 
-def misprint(printed: bool, repaired: bool) -> str:
-    """The verdict of a slip: wrong as it stands, right with the other reading."""
-    return "misprint" if repaired and not printed else verdict(printed, repaired)
+def transcript(stands: bool, other: bool) -> str:
+    """The verdict of words that a transcript may have lost: they do not stand, the other reading does."""
+    return "transcript" if other and not stands else verdict(stands, other)
 
 
 def definition(agrees: bool) -> str:
@@ -48,7 +48,14 @@ def definition(agrees: bool) -> str:
     return "definition"
 
 
-def reproduced(name: str, panels: int) -> str:
+def seen(again: bool) -> str:
+    """The verdict of what the paper reports of its own data: seen again with ours, or not."""
+    if not again:
+        raise AssertionError("not seen on our data")
+    return "seen on our own data"
+
+
+def drawn(name: str, panels: int) -> str:
     """The verdict of a figure: the library draws it, with all panels, a caption and an alternative text."""
     import matplotlib
 
@@ -61,6 +68,4 @@ def reproduced(name: str, panels: int) -> str:
     figure = draw()
     full = [ax for ax in figure.axes if ax.has_data() or ax.get_legend()]
     plt.close(figure)
-    if len(full) < panels or not draw.caption or not draw.alt:
-        raise AssertionError(f"{name} has {len(full)} panels of {panels}, or no caption or alternative text")
-    return "figure reproduced"
+    return seen(len(full) >= panels and bool(draw.caption and draw.alt))

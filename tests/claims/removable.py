@@ -7,7 +7,7 @@ from truth.solids import random_region
 
 import polyskel_lite as psl
 
-from .registry import check, reproduced, verdict
+from .registry import check, drawn, verdict
 from .removal import (
     Region,
     branch,
@@ -145,17 +145,17 @@ def other_removable_tetrahedra():
             if dual and not known:
                 others.add((len(region.boundary_facets(s)), len(region.inner_edges(s))))
     assert others <= {(1, 2), (0, 3)}
-    return verdict(printed=not others, repaired=without_pinch)
+    return verdict(stands=not others, repaired=without_pinch)
 
 
 @check("fig-6")
 def figure_6():
-    return reproduced("figure_6", panels=6)
+    return drawn("figure_6", panels=6)
 
 
 @check("fig-7")
 def figure_7():
-    return reproduced("figure_7", panels=6)
+    return drawn("figure_7", panels=6)
 
 
 @check("surface-strategy")
@@ -169,12 +169,12 @@ def hats_always_salients_sometimes():
             _, edges, polygons = region.dual()
             wires += len(set(edges) - set().union(*polygons, set()))
             free += sum(map(region.is_hat, region.alive))
-    return verdict(printed=wires == 0, repaired=free == 0)
+    return verdict(stands=wires == 0, repaired=free == 0)
 
 
 @check("wireframe-strategy")
 def salients_always_hats_sometimes():
-    """No salient is left. But not one polygon of the hollow ball goes, and kept hats hold polygons."""
+    """No salient is left, and of the polygons almost none. But kept hats hold some, and a cavity all of its own."""
     held = 0
     for P in solids():
         for threshold in (0.0, 2 * np.pi, np.inf):
@@ -187,4 +187,6 @@ def salients_always_hats_sometimes():
                 assert left == total
             else:
                 held += left
-    return verdict(printed=held == 0)
+    arms = psl.hierarchy(psl.datasets.load("fourbranch"), "wireframe")
+    almost = len(arms.skeleton(2 * np.pi).polygons) < 0.01 * len(psl.sk0(arms.P).polygons)
+    return verdict(stands=held == 0, repaired=almost)

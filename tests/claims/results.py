@@ -11,7 +11,7 @@ import numpy as np
 import polyskel_lite as psl
 
 from .geometry import ends
-from .registry import check, misprint, reproduced, verdict
+from .registry import check, drawn, seen, transcript, verdict
 from .removal import (
     RULES,
     hollow_ball,
@@ -31,18 +31,15 @@ def ends_of_the_wireframe():
         name: ends(results(name).skeleton(2 * np.pi)) for name in ("fourbranch", "chromosome", "vertebra")
     }
     assert all(results(n).branches(2 * np.pi).graph["branches"] == k for n, k in found.items())
-    return verdict(
-        printed=list(found.values()) == [4, 4, 13],
-        repaired=found["fourbranch"] == found["chromosome"] == 4
-        and results("vertebra").P.betti() == (1, 1, 0),
-    )
+    same = found["fourbranch"] == found["chromosome"] == 4
+    return seen(same and found["vertebra"] > 10 and results("vertebra").P.betti() == (1, 1, 0))
 
 
 @check("fig-10")
 def figure_10():
     sizes = [len(psl.datasets.load(name).points) for name in ("fourbranch", "chromosome", "vertebra")]
     assert sizes == [1191, 2290, 2011]
-    return reproduced("figure_10", panels=15)
+    return drawn("figure_10", panels=15)
 
 
 @check("time-under-30s")
@@ -53,7 +50,7 @@ def time_of_the_three_shapes():
         P = psl.delaunay_shape(psl.datasets.load(name))
         for strategy, threshold in (("surface", np.pi / 3), ("wireframe", 2 * np.pi)):
             psl.hierarchy(P, strategy).skeleton(threshold)
-    return verdict(perf_counter() - start < 30)
+    return seen(perf_counter() - start < 30)
 
 
 @check("almost-wireframe")
@@ -66,7 +63,7 @@ def polygons_left():
     ball = psl.hierarchy(hollow_ball(), "wireframe")
     closed = len(ball.skeleton(2 * np.pi).polygons) / len(psl.sk0(ball.P).polygons)
     assert closed == 1
-    return verdict(printed=max(*shares, closed) < 0.01, repaired=max(shares) < 0.01)
+    return verdict(stands=max(*shares, closed) < 0.01, repaired=max(shares) < 0.01)
 
 
 @check("parametrized-by-an-angle")
@@ -80,10 +77,7 @@ def one_angle():
         / 2
     )
     angle = abs(area - 4 * np.pi) < 0.02 * 4 * np.pi
-    repaired = angle and not any(size_changes(s, 2.0**10) for s in RULES)
-    return verdict(
-        printed=repaired and not size_changes("wireframe", 2.0**10, "as printed"), repaired=repaired
-    )
+    return verdict(angle and not any(size_changes(s, 2.0**10) for s in RULES))
 
 
 def _sphere(n: int) -> np.ndarray:
@@ -93,7 +87,7 @@ def _sphere(n: int) -> np.ndarray:
     return np.column_stack([r * np.cos(a), r * np.sin(a), z])
 
 
-@check("misprint-section-4")
+@check("transcript-section-4")
 def where_the_review_is():
     """The four methods are reviewed where their definitions are: in section 3."""
     path = Path(__file__).resolve().parents[2] / "notebooks" / "claims.toml"
@@ -101,10 +95,10 @@ def where_the_review_is():
     sections = {
         c["section"][0] for c in claims if c["id"] in ("def-sk0", "def-sk1", "def-sk2", "def-sk3", "def-yw")
     }
-    return misprint(printed=sections == {"4"}, repaired=sections == {"3"})
+    return transcript(stands=sections == {"4"}, other=sections == {"3"})
 
 
-@check("misprint-angel")
+@check("transcript-angel")
 def what_a_threshold_is():
     h = psl.hierarchy(noisy_flower(0.005))
     try:
@@ -112,4 +106,4 @@ def what_a_threshold_is():
         printed = True
     except (TypeError, psl.InputError):
         printed = False
-    return misprint(printed, repaired=bool(h.kept(np.pi).sum() < h.kept(0.0).sum()))
+    return transcript(printed, other=bool(h.kept(np.pi).sum() < h.kept(0.0).sum()))

@@ -112,7 +112,7 @@ HIERARCHY = psl.hierarchy
 
 
 def as_printed(P, strategy=None, criterion="corrected"):
-    return HIERARCHY(P, strategy, "as printed")
+    return HIERARCHY(P, strategy, "transcript")
 
 
 def never_as_printed(P, strategy=None, criterion="corrected"):
@@ -128,7 +128,7 @@ def polyball_with(**methods):
 
 
 def printed_skeleton(Y, statement="corrected"):
-    return POLYBALL.skeleton(Y, "as printed")
+    return POLYBALL.skeleton(Y, "transcript")
 
 
 def skeleton_of_smaller_balls(Y, statement="corrected"):
@@ -155,18 +155,18 @@ def broken(claim: str) -> bool:
             "sk0",
             lambda shape, side="inner": psl.voronoi(psl.delaunay([(0, 0), (1, 0), (0, 1)])),
         ),
-        ("theorem-2-open-ball", "sk2", lambda shape, E=None, side="inner": psl.sk0(shape, side)),
+        ("theorem-2", "sk2", lambda shape, E=None, side="inner": psl.sk0(shape, side)),
         ("gabriel-refinement", "conform", lambda shape, to="gabriel": shape),
         ("theorem-2-3d", "gabriel", lambda points, closed=True: psl.delaunay(points).facets()[:4]),
         ("complexity-3d-8n", "delaunay", lambda points: type("T", (), {"simplices": points})),
         ("duality-removal", "sk0", lambda P, side="inner": psl.voronoi(P.tessellation)),
         ("size-invariant", "hierarchy", as_printed),
-        ("parametrized-by-an-angle", "hierarchy", never_as_printed),
+        ("parametrized-by-an-angle", "hierarchy", as_printed),
         ("hierarchy-nested", "hierarchy", as_printed),
         ("alpha-criterion", "hierarchy", as_printed),
-        ("alpha-as-printed", "hierarchy", never_as_printed),
+        ("alpha-normals", "hierarchy", never_as_printed),
         ("branch-criterion", "hierarchy", as_printed),
-        ("misprint-perimeter", "hierarchy", never_as_printed),
+        ("perimeter-2d", "hierarchy", never_as_printed),
         ("a-of-v", "hierarchy", as_printed),
         ("raw-threshold-wrong", "hierarchy", as_printed),
         ("theorem-3", "Polyball", polyball_with(skeleton=skeleton_of_smaller_balls)),

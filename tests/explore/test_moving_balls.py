@@ -111,7 +111,7 @@ def test_the_skeleton_drawn_is_that_of_the_library():
         drawn = explorer.board.layers["skeleton"].lines
         assert np.array_equal(drawn, Y.skeleton().segments())
         # In the plane nothing is to be corrected, so there is no switch between the two statements.
-        assert np.array_equal(drawn, Y.skeleton(statement="as printed").segments())
+        assert np.array_equal(drawn, Y.skeleton(statement="transcript").segments())
         assert explorer.numbers["area"] == Y.area()
         assert len(explorer.board.layers["singular"].points) == len(Y.singular_points())
     explorer.controls["voronoi"].value = False

@@ -13,7 +13,7 @@ from polyskel_lite.simplification import end_vertices, paths_back
 @pytest.mark.parametrize("name", psl.datasets.names())
 def test_thresholds_show_what_the_hierarchy_has(name):
     explorer = explore.thresholds(psl.datasets.load(name))
-    for criterion in ("corrected", "as printed"):
+    for criterion in ("corrected", "transcript"):
         explorer.controls["criterion"].value = criterion
         h = psl.hierarchy(explorer.P, criterion=criterion)
         for value in (0, 0.5, 1, 2.5, 6):

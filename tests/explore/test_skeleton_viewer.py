@@ -68,7 +68,7 @@ def test_elements_shown_are_those_of_the_hierarchies_in_space(solids):
 
 def test_hierarchies_with_holes_and_both_criteria():
     P = psl.delaunay_shape(psl.datasets.load("lake"))
-    both = [psl.hierarchy(P, criterion=criterion) for criterion in ("corrected", "as printed")]
+    both = [psl.hierarchy(P, criterion=criterion) for criterion in ("corrected", "transcript")]
     picture = explore.viewer(both)
     assert [h["label"] for h in picture.scene["variants"][0]["hierarchies"]] == [
         "branch, corrected",

@@ -143,7 +143,7 @@ def _sk1_of(shape) -> None:
 def _simplified(shape, betti) -> None:
     """At every threshold the same topology; what a larger one keeps, a smaller one keeps too."""
     P = psl.delaunay_shape(shape)
-    for criterion in ("corrected", "as printed"):
+    for criterion in ("corrected", "transcript"):
         h = psl.hierarchy(P, criterion=criterion)
         before = P.inner
         for threshold in (0.0, 0.5, 1.0, 2.0, 5.0, np.inf):

@@ -146,7 +146,7 @@ def test_four_balls_may_close_a_point():
 
 
 @each_dimension
-@pytest.mark.parametrize("statement", ["corrected", "as printed"])
+@pytest.mark.parametrize("statement", ["corrected", "transcript"])
 def test_tangent_balls_are_named(N, statement):
     """Fact 6: the theorems leave them out."""
     centers = np.zeros((3, N))
@@ -167,7 +167,7 @@ def test_three_unit_balls_on_a_line():
     assert not len(Y.quasi_disconnected())
     assert not len(Y.disconnected())
     assert not len(Y.singular_points())
-    printed = Y.skeleton(statement="as printed")
+    printed = Y.skeleton(statement="transcript")
     assert not len(printed.vertices)
     assert not len(printed.edges)
     assert is_exactly(Y.skeleton(), *line_of((0, 0, 0), (0.5, 0, 0), (1, 0, 0)))
@@ -186,7 +186,7 @@ def test_a_circle_partly_on_the_boundary_gives_its_whole_segment():
     along = np.linspace(0, 1, 21)[:, None] * centers[1]
     assert truth.growth(along)[0].max() < 1e-9
     assert away(along, Y.skeleton()).max() < 1e-12
-    assert away(along, Y.skeleton(statement="as printed")).max() < 1e-12
+    assert away(along, Y.skeleton(statement="transcript")).max() < 1e-12
     assert [0, 1] in np.sort(Y.exposed_pairs(), axis=1).tolist()
 
 

@@ -95,7 +95,7 @@ def missed_as_printed(N, count=PER_FAMILY):
     for x in (x for f in range(len(FAMILIES)) for x in cases(f, N, count)):
         m, _, error = x.truth.medial_points(np.random.default_rng(7))
         sharp = error <= BLUNT * x.size
-        printed = x.Y.skeleton(statement="as printed")
+        printed = x.Y.skeleton(statement="transcript")
         off = sharp & (away(m, printed) > 1e-6 * x.size)
         wrong, missed, total = wrong + bool(off.any()), missed + int(off.sum()), total + int(sharp.sum())
     return wrong, count * len(FAMILIES), missed, total
@@ -121,7 +121,7 @@ def test_as_printed_theorem_4_misses_segments_of_whole_circles_only():
         if len(part):
             share = np.linspace(0, 1, 5)[:, None, None]
             m = ((1 - share) * t.c[part[:, 0]] + share * t.c[part[:, 1]] + t.origin).reshape(-1, 3)
-            assert away(m, x.Y.skeleton(statement="as printed")).max() < TOLERANCE * x.size, x.name
+            assert away(m, x.Y.skeleton(statement="transcript")).max() < TOLERANCE * x.size, x.name
             segments += len(part)
     assert segments > 500
 
@@ -134,7 +134,7 @@ def test_as_printed_theorem_3_misses_none():
 def test_as_printed_claims_no_more_in_3d(family):
     """What the printed theorem does give is medial: it is too small, not wrong."""
     for x in cases(family, 3, 5):
-        printed = x.Y.skeleton(statement="as printed")
+        printed = x.Y.skeleton(statement="transcript")
         assert (
             not len(printed.vertices)
             or away(samples_of(printed, x.rng), x.skeleton).max() < TOLERANCE * x.size

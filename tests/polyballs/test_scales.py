@@ -20,7 +20,7 @@ def balls(number, N):
 def answers(Y, queries):
     """What a polyball says, with the power of the unit of length by which each of it grows."""
     skeleton, N = Y.skeleton(), Y.dimension
-    printed = Y.skeleton(statement="as printed")
+    printed = Y.skeleton(statement="transcript")
     lengths = {
         "vertices": skeleton.vertices,
         "sizes": skeleton.radii,

@@ -134,7 +134,7 @@ def test_size_does_not_matter(strategy, scale):
 def test_size_matters_as_printed_in_3d():
     P = random_region(9, n=3, points=120)
     Q = psl.DelaunayShape(psl.delaunay(P.tessellation.points * 2.0**10), P.inner)
-    a, b = (psl.hierarchy(S, "wireframe", criterion="as printed").level for S in (P, Q))
+    a, b = (psl.hierarchy(S, "wireframe", criterion="transcript").level for S in (P, Q))
     finite = np.isfinite(a) & np.isfinite(b) & (a > 0)
     assert not np.allclose(a[finite], b[finite])
 
@@ -160,7 +160,7 @@ def test_the_hexagon_strip_by_hand():
     t = psl.delaunay([(0, 0), (1, 0), (1, 1), (0, 1)])
     h = psl.hierarchy(psl.DelaunayShape(t, np.array([True, True])))
     assert sorted(h.level.tolist()) == [pytest.approx(2 * np.sqrt(2)), np.inf]
-    printed = psl.hierarchy(psl.DelaunayShape(t, np.array([True, True])), criterion="as printed")
+    printed = psl.hierarchy(psl.DelaunayShape(t, np.array([True, True])), criterion="transcript")
     assert min(printed.level) == pytest.approx(2 * np.sqrt(2) + 2)
 
 

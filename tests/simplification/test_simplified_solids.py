@@ -76,12 +76,12 @@ def test_branches_of_the_two_made_shapes():
 def test_size_as_printed_and_corrected():
     """p/r² finds four ends at any size; p/r, as printed, another number at each."""
     shape = psl.datasets.load("fourbranch")
-    ends = {criterion: [] for criterion in ("corrected", "as printed")}
+    ends = {criterion: [] for criterion in ("corrected", "transcript")}
     for scale in (0.01, 1, 100, 1000):
         P = psl.delaunay_shape(psl.Shape(shape.points * scale, shape.facets))
         for criterion, found in ends.items():
             h = psl.hierarchy(P, "wireframe", criterion=criterion)
             found.append(h.branches(2 * np.pi).graph["branches"])
     assert ends["corrected"] == [4] * 4
-    assert ends["as printed"] == sorted(ends["as printed"])
-    assert ends["as printed"][0] < 4 < ends["as printed"][-1]
+    assert ends["transcript"] == sorted(ends["transcript"])
+    assert ends["transcript"][0] < 4 < ends["transcript"][-1]

@@ -79,7 +79,7 @@ class Thresholds(Explorer):
         threshold = ipywidgets.FloatSlider(
             1.0, min=0, max=6, step=0.05, readout_format=".2f", description="threshold (multiples of π)"
         )
-        criterion = ipywidgets.Dropdown(options=["corrected", "as printed"], description="criterion")
+        criterion = ipywidgets.Dropdown(options=["corrected", "transcript"], description="criterion")
         ends = ipywidgets.Dropdown(
             options=["nothing", "their balls", "the way they have come"], description="show at the ends"
         )
@@ -128,7 +128,7 @@ class SolidThresholds(WithStandIn):
         self.hierarchies = [
             hierarchy(P, strategy, criterion)
             for strategy in STRATEGIES[3]
-            for criterion in ("corrected", "as printed")
+            for criterion in ("corrected", "transcript")
         ]
         about = "A solid and its simplified skeleton."
         self.picture = viewer(self.hierarchies, threshold=np.pi / 3, alt=about, look=self.look_for)
