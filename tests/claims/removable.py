@@ -174,7 +174,7 @@ def hats_always_salients_sometimes():
 
 @check("wireframe-strategy")
 def salients_always_hats_sometimes():
-    """No salient is left, and of the polygons almost none. But kept hats hold some, and a cavity all of its own."""
+    """No salient is left, and almost no polygon. But kept hats hold some, and a cavity all of its own."""
     held = 0
     for P in solids():
         for threshold in (0.0, 2 * np.pi, np.inf):
