@@ -30,8 +30,8 @@ CHECKS = (
     "polyballs",
     "medial_points",
     "missed",
-    "missed_as_printed",
-    "polyballs_wrong_as_printed",
+    "missed_by_lenses",
+    "polyballs_wrong_by_lenses",
     "skeleton_points",
     "not_medial",
     "left_out",
@@ -90,13 +90,13 @@ def checked(N: int, polyballs: int) -> dict:
         m, _, error = x.truth.medial_points(np.random.default_rng(number))
         sharp, allowed = error <= BLUNT * x.size, TOLERANCE * x.size + 10 * error
         gap = away(m, x.skeleton)
-        printed = sharp & (away(m, x.Y.skeleton(statement="as printed")) > 1e-6 * x.size)
+        lenses = sharp & (away(m, x.Y.skeleton(statement="transcript")) > 1e-6 * x.size)
         counts["medial_points"] += int(sharp.sum())
         counts["missed"] += int((sharp & (gap > allowed)).sum())
         clear = error <= 1e-10 * x.size  # what is left is the library's own error
         counts["largest_gap"] = max(counts["largest_gap"], gap[clear].max(initial=0) / x.size)
-        counts["missed_as_printed"] += int(printed.sum())
-        counts["polyballs_wrong_as_printed"] += bool(printed.any())
+        counts["missed_by_lenses"] += int(lenses.sum())
+        counts["polyballs_wrong_by_lenses"] += bool(lenses.any())
         growth, blur = x.truth.growth(samples_of(x.skeleton, x.rng))
         clear = blur <= BLUNT * x.size
         counts["skeleton_points"] += int(clear.sum())

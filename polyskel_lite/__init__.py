@@ -20,7 +20,7 @@ from .errors import (
     TessellationError,
 )
 from .graphs import Tessellation, delaunay, gabriel
-from .pipeline import Bones, skeleton
+from .pipeline import Bones, BranchCounts, branch_counts, skeleton
 from .polyballs import Polyball, Sk2Conditions, delaunay_balls, sk2_conditions
 from .shapes import Shape
 from .simplification import Hierarchy, hierarchy
@@ -28,6 +28,7 @@ from .skeletons import Skeleton, branch_graph, directed_hausdorff, hausdorff, sk
 
 __all__ = [
     "Bones",
+    "BranchCounts",
     "CoarseSamplingWarning",
     "ContourContainmentError",
     "DelaunayShape",
@@ -44,6 +45,7 @@ __all__ = [
     "TangentBallsError",
     "Tessellation",
     "TessellationError",
+    "branch_counts",
     "branch_graph",
     "conform",
     "datasets",

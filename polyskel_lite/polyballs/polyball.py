@@ -169,7 +169,7 @@ class Polyball(BallBoundary):
         return union.rows[rows[lonely(union.centers[rows], union.radii[rows])]]
 
     def quasi_disconnected(self) -> np.ndarray:
-        """Pairs of generating balls whose common part meets no third one (definition 3, as printed).
+        """Pairs of generating balls whose common part meets no third one (definition 3, read for the lens).
 
         Returns
         -------
@@ -200,12 +200,15 @@ class Polyball(BallBoundary):
         """Build the exact skeleton: the centres of all maximal balls (appendix A.2, theorems 3 and 4).
 
         Theorem 3 needs one reading in the plane ("at least one" nearest boundary point is singular).
-        Theorem 4 is false as printed: it joins only quasi-disconnected balls. The corrected statement joins
-        the centres of every two balls whose circle has an arc on the boundary.
+        Theorem 4 joins the centres of quasi-disconnected balls. It holds if that is read for the circle in
+        which two spheres meet; read for their lens, as a transcript has it, balls that overlap well have no
+        skeleton. The statement used here needs no such word: it joins every two balls whose circle has an arc
+        on the boundary.
 
         Parameters
         ----------
         statement : "corrected" or "transcript"
+            "transcript" reads Definition 3 for the lens.
 
         Returns
         -------
@@ -249,12 +252,12 @@ class Polyball(BallBoundary):
                 "union would be cut there; enlarge or shrink one of them a little.",
                 pairs,
             )
-        skeleton = verified_skeleton(self.union) if statement == "corrected" else self._as_printed()
+        skeleton = verified_skeleton(self.union) if statement == "corrected" else self._by_lenses()
         places, sizes = self.from_unit(skeleton.vertices), self.from_unit(skeleton.radii)
         return replace(skeleton, vertices=places, radii=sizes)
 
-    def _as_printed(self) -> Skeleton:
-        """The skeleton by theorems 3 and 4 as printed, in the unit of the union."""
+    def _by_lenses(self) -> Skeleton:
+        """The skeleton by theorems 3 and 4, definition 3 read for lenses, in the unit of the union."""
         union = self.union
         alone, bridges = np.isin(union.rows, self.disconnected()), np.zeros((0, 2), dtype=np.int64)
         if union.in_space:

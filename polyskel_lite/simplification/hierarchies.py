@@ -159,8 +159,8 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
         normals of its two boundary faces is below the threshold. "wireframe": salients go
         systematically, a hat goes when p/r², boundary area over squared radius, is below the threshold.
     criterion : "corrected" or "transcript"
-        The paper prints the dihedral angle, p/r and, in 2D, the whole perimeter of A(v); see section 4.3
-        of the book for what that does.
+        "transcript" takes the words of our transcript of the paper at their narrowest: the dihedral angle,
+        p/r in 3D and, in 2D, the whole perimeter of A(v); see section 4.3 of the book for what that does.
 
     Returns
     -------

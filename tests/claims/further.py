@@ -1,4 +1,4 @@
-"""Statements that an audit found missing: cited facts, what follows from several sections, cases of proofs."""
+"""Statements that an audit found missing: cited facts, consequences of several sections, cases of proofs."""
 
 from __future__ import annotations
 

@@ -215,7 +215,7 @@ def _ball_names(count: int) -> list[tuple[str, int]]:
 def balls(polyball: Polyball | None = None) -> Balls:
     """Explore the union of balls that you add, move and grow, and its exact skeleton (appendix A).
 
-    In the plane the theorem as printed gives the same skeleton; it is in space that it fails.
+    In the plane both readings of definition 3 give the same skeleton; in space they differ.
 
     Parameters
     ----------

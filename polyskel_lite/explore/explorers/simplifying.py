@@ -19,11 +19,11 @@ from .explorer import Explorer, WithStandIn, outline, refined
 LOOK_FOR = (
     "Move the threshold from left to right. Look for the order in which branches go, small ripples of the "
     "boundary first, and for the Betti numbers, which stay. Which threshold leaves what you would draw by "
-    "hand? Then choose the criterion as printed, at the same threshold."
+    "hand? Then choose the criterion of the transcript, at the same threshold."
 )
 LOOK_FOR_3D = (
     "Move the threshold, once with each strategy. Surface skeletons lose sheets from their rims, wireframes "
-    "lose branches. Look for the Betti numbers, which stay, and for what the criteria as printed remove."
+    "lose branches. Look for the Betti numbers, which stay, and for what the other readings remove."
 )
 ALT = "A shape, its simplified shape tinted, its skeleton dotted, and what is left of it as a red line."
 
