@@ -74,6 +74,7 @@ fuzz: $(VENV)/.installed  ## hostile arrays, files and shapes, COUNT of each fro
 	@PYTHONPATH=tests $(BIN)/python -m fuzz --count $(COUNT) --seed $(SEED) --report benchmarks/fuzz.csv
 
 run: $(VENV)/.installed  ## maintainers: run every notebook and store its outputs
+	@$(BIN)/python tools/register.py
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py
 
 lock: $(VENV)/.installed  ## maintainers: resolve pyproject.toml anew into requirements.lock (needs uv)

@@ -1,6 +1,7 @@
 """Settings for Sphinx. The choices of the book stand in ../book.toml; the rest makes pages work offline."""
 
 import json
+import re
 import runpy
 import tomllib
 from html import escape
@@ -102,6 +103,23 @@ def say_what_colab_needs(app, pagename, templatename, context, doctree):
         context["body"] = context["body"].replace("</h1>", "</h1>" + hint, 1)
 
 
+def link_claims_to_cells(app, pagename, templatename, context, doctree):
+    """Give the cell that shows a claim an anchor, and cards, whose HTML says .ipynb, pages to link to."""
+    if "body" not in context:
+        return
+    seen = set()
+
+    def anchors(cell):
+        names = [name for name in re.findall(r"tag_claim:([\w-]+)", cell[0]) if name not in seen]
+        seen.update(names)
+        return "".join(f'<span id="claim-{name}"></span>' for name in names) + cell[0]
+
+    body = re.sub(r'<div class="cell [^"]*tag_claim:[^"]*"', anchors, context["body"])
+    context["body"] = re.sub(r'(<a href="\w+)\.ipynb([#"])', r"\1.html\2", body)
+    if 'class="claim"' in body:
+        app.add_js_file("register.js")
+
+
 def draw_the_house(app, docname, source):
     """Put the rooms and their arrows, read from the code, into the page that explains them."""
     if docname == "house":
@@ -116,4 +134,5 @@ def setup(app):
     app.connect("env-get-outdated", lambda *_: ["house"])  # its code may have changed though the page has not
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)
+    app.connect("html-page-context", link_claims_to_cells)
     app.connect("html-page-context", add_viewer)

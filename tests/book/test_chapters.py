@@ -147,3 +147,14 @@ def test_checker_of_pages_finds_what_it_looks_for(tmp_path):
     ]
     (tmp_path / "index.html").write_text('<img src="data:image/png;base64,AA==">', encoding="utf-8")
     assert subprocess.run(command, capture_output=True).returncode == 0
+
+
+def test_every_source_is_cited():
+    """The bibliography has what the book cites, and nothing else."""
+    folder = ROOT / "notebooks"
+    keys = set(re.findall(r"@\w+\{(\w+),", (folder / "references.bib").read_text(encoding="utf-8")))
+    sources = [*folder.glob("*.ipynb"), *folder.glob("*.md"), folder / "claims.toml"]
+    words = "".join(path.read_text(encoding="utf-8") for path in sources)
+    cited = {key for group in re.findall(r"\{cite(?::\w+)?\}`([^`]+)`", words) for key in group.split(",")}
+    cited |= set(re.findall(r"cite:(\w+)\"", words))
+    assert keys == cited

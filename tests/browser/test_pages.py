@@ -52,3 +52,25 @@ def test_search_finds_a_chapter(visit, request, place):
     opened = visit(home, "search.html?q=reversibility")
     opened.page.locator("#search-results li a").first.wait_for()
     opened.assert_quiet()
+
+
+def test_the_register_can_be_filtered_without_a_kernel(visit, book):
+    opened = visit(book.as_uri(), "claims.html")
+    page = opened.page
+    cards = page.locator("div.claim")
+    everything = cards.count()
+    assert everything > 140
+    page.get_by_label("verdict").select_option("does not hold")
+    shown = page.locator("div.claim:visible")
+    assert 0 < shown.count() < 10
+    assert page.get_by_role("search").locator("output").inner_text() == f"{shown.count()} of {everything}"
+    assert page.get_by_role("heading", name="3.6: cost").is_hidden()  # no card of it is left
+    page.get_by_label("words").fill("obtuse face")
+    assert shown.count() == 1
+    page.locator("a[href='#row-theorem-2']").first.click()  # a link to a card that is filtered out
+    page.locator("#row-theorem-2").wait_for()
+    assert shown.count() == everything
+    page.locator("#row-theorem-2").get_by_role("link", name="Shown here").click()
+    page.wait_for_url("**/03_5_comparison.html#claim-theorem-2")
+    assert page.locator("#claim-theorem-2 + div.cell").count() == 1
+    opened.assert_quiet()

@@ -2,6 +2,8 @@
 
 import ast
 import json
+import re
+import runpy
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -39,7 +41,7 @@ def test_verdict(claim):
 @each_claim
 def test_entry_is_complete(claim):
     needed = {*FIELDS, *(["condition"] if claim["verdict"] == "holds under" else [])}
-    assert set(claim) == needed
+    assert set(claim) - {"proof"} == needed
     assert all(isinstance(value, str) and value.strip() for value in claim.values())
     assert claim["verdict"] in VERDICTS
 
@@ -66,6 +68,37 @@ def test_pointed_test_exists(claim):
     assert function in test_names(ROOT / path)
     if function == "test_verdict":
         assert parameter == claim["id"] + "]"
+
+
+def test_pointed_proofs_exist():
+    """A proof is a place in a chapter, or an entry of the bibliography."""
+    bibliography = (ROOT / "notebooks" / "references.bib").read_text(encoding="utf-8")
+    places = [claim["proof"] for claim in CLAIMS if "proof" in claim]
+    assert len(places) > 20
+    for place in places:
+        kind, _, key = place.rpartition(":")
+        if kind == "cite":
+            assert f"{{{key}," in bibliography, place
+        else:
+            chapter, _, label = place.partition("#")
+            text = (ROOT / "notebooks" / chapter).read_text(encoding="utf-8")
+            assert f":label: {label}" in text if label else "{prf:" in text, place
+
+
+def test_names_of_other_claims_are_right():
+    named = [
+        name for claim in CLAIMS for name in re.findall(r"\bsee ([a-z0-9]+(?:-[a-z0-9]+)+)", claim["reading"])
+    ]
+    assert named
+    assert set(named) <= set(IDS)
+
+
+def test_table_is_the_register():
+    """claims.csv is written by tools/register.py."""
+    register = runpy.run_path(str(ROOT / "tools" / "register.py"))
+    table = (ROOT / "notebooks" / "claims.csv").read_text(encoding="utf-8")
+    assert table == register["table"](register["load"]())
+    assert list(register["SIGNS"]) == list(VERDICTS)
 
 
 @cache
