@@ -21,6 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 # Chapters read these beside themselves, or link to them.
 BESIDE = [
     "notebooks/claims.toml",
+    "tools/register.py",
     "polyskel_lite/**/*.py",
     "tests/claims/*.py",
     "tests/fuzz/*.py",
