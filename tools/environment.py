@@ -25,7 +25,12 @@ def run(*command, quiet=False):
     if "PIP_CERT" in names:
         names.setdefault("SSL_CERT_FILE", names["PIP_CERT"])
     out = subprocess.DEVNULL if quiet else None
-    return subprocess.run([str(part) for part in command], cwd=ROOT, env=names, stdout=out, stderr=out).returncode == 0
+    return (
+        subprocess.run(
+            [str(part) for part in command], cwd=ROOT, env=names, stdout=out, stderr=out
+        ).returncode
+        == 0
+    )
 
 
 def index():

@@ -1,7 +1,7 @@
 """Pictures to take hold of: the skeleton viewer, and one explorer per question of the book.
 
-The viewer also works on the pages of the book, where no kernel runs. Everything here needs the extra ``lab``:
-``pip install polyskel-lite[lab]``. Nothing here computes what the rest of the library does not.
+The viewer also works on the pages of the book, where no kernel runs. Everything here needs
+``pip install ipywidgets anywidget``. Nothing here computes what the rest of the library does not.
 
 Examples
 --------
@@ -33,7 +33,7 @@ def __getattr__(name):
             raise
         raise ImportError(
             f"polyskel_lite.explore needs {error.name}, which is not installed; "
-            "run: pip install polyskel-lite[lab]"
+            "run: pip install ipywidgets anywidget"
         ) from None
 
 

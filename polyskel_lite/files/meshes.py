@@ -186,7 +186,7 @@ def _library(name: str):
     try:
         return __import__(name)
     except ImportError:
-        raise InputError(f"{name} is not installed; run: pip install polyskel-lite[meshes]") from None
+        raise InputError(f"{name} is not installed; run: pip install {name}") from None
 
 
 def _write(path: Path, points, edges, polygons, data) -> None:

@@ -46,11 +46,11 @@ def read_file(
     - ``.geojson``, ``.json``: all Polygons and MultiPolygons, alone, in Features or in collections.
       Longitude and latitude are taken as plane coordinates: project them first where that matters.
     - ``.svg``: all closed paths and basic shapes, transforms applied, in user units, y upward. Needs
-      ``pip install polyskel-lite[files]``.
+      ``pip install svgpathtools``.
     - ``.png``, ``.jpg`` and other pictures: the silhouette, in pixels (see `trace`). It is the
       opaque part if the picture is transparent anywhere, otherwise the dark part.
     - ``.stl``, ``.ply``, ``.obj``, ``.off``: a closed triangle mesh (see `read_mesh`). Needs
-      ``pip install polyskel-lite[meshes]``.
+      ``pip install trimesh``.
     - ``.npz``: the arrays ``points`` and ``facets`` of a `Shape`, or ``xy`` and ``off`` (the vertices
       of all rings and where each ring begins, with the total at the end).
 

@@ -86,7 +86,7 @@ def _svg_tools():
     try:
         from svgpathtools import document, parse_path, parser
     except ImportError:
-        raise InputError("reading SVG needs svgpathtools; run: pip install polyskel-lite[files]") from None
+        raise InputError("reading SVG needs svgpathtools; run: pip install svgpathtools") from None
     return document.CONVERSIONS, parse_path, parser.parse_transform
 
 

@@ -45,7 +45,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     try:
         import networkx
     except ImportError:
-        raise InputError("networkx is not installed; run: pip install polyskel-lite[graph]") from None
+        raise InputError("networkx is not installed; run: pip install networkx") from None
     node, sheets = _sheet_of(skeleton)
     n, k = len(skeleton.vertices), len(sheets)
     wires = skeleton.edges[free_edges(skeleton)]

@@ -210,7 +210,7 @@ class Skeleton:
         try:
             import networkx
         except ImportError:
-            raise InputError("networkx is not installed; run: pip install polyskel-lite[graph]") from None
+            raise InputError("networkx is not installed; run: pip install networkx") from None
         graph = networkx.Graph()
         rows = zip(self.vertices.tolist(), self.radii.tolist(), self.simplices.tolist(), strict=True)
         graph.add_nodes_from(

@@ -144,6 +144,6 @@ def test_stored_pictures_belong_to_the_locked_matplotlib():
 
     ``pytest tests/figures/test_pictures.py --mpl-generate-path=tests/figures/baseline`` makes them.
     """
-    lock = Path(__file__).parents[2] / "requirements.lock"
+    lock = Path(__file__).parents[2] / "requirements" / "test.lock"
     (version,) = re.findall(r"^matplotlib==(\S+)", lock.read_text(encoding="utf-8"), flags=re.MULTILINE)
     assert version.startswith(BASELINE_VERSION + ".")

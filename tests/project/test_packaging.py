@@ -13,9 +13,12 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parents[2]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT, GROUPS = PYPROJECT["project"], PYPROJECT["dependency-groups"]
 EXTRAS = PROJECT["optional-dependencies"]
-LOCK = (ROOT / "requirements.lock").read_text(encoding="utf-8")
+LOCKS = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "requirements").glob("*.lock")}
+PIN = re.compile(r"^([A-Za-z0-9._-]+)==([^\s;]+)(?: ;([^\\\n]*))? \\\n    --hash=sha256:[0-9a-f]{64}", re.M)
+each_lock = pytest.mark.parametrize("name", LOCKS)
 
 
 def packages(requirements: list[str]) -> dict[str, str]:
@@ -25,12 +28,17 @@ def packages(requirements: list[str]) -> dict[str, str]:
     return {name: str(r.specifier) for r in parsed if (name := canonicalize_name(r.name)) != own}
 
 
-def wanted() -> dict[str, str]:
-    """What the environment of the project holds: the library and every extra but the maintainers' own."""
-    lines = PROJECT["dependencies"] + [
-        line for name, extra in EXTRAS.items() if name != "dev" for line in extra
+def wanted(name: str = "") -> dict[str, str]:
+    """What the environment of one lock holds; of all together the library, every extra and group but dev."""
+    library = [
+        *PROJECT["dependencies"],
+        *(line for extra in EXTRAS.values() for line in extra),
+        *GROUPS["install"],
     ]
-    return packages(lines)
+    test = [*library, *GROUPS["lite"], *GROUPS["test"]]
+    lite = [*PROJECT["dependencies"], *EXTRAS["graph"], *GROUPS["install"], *GROUPS["lite"]]
+    lines = {"book": GROUPS["book"], "lab": library, "lite": lite, "test": test, "uv": ["uv"]}
+    return packages(lines[name] if name else [*test, *GROUPS["book"]])
 
 
 def test_environment_names_the_packages_of_pyproject():
@@ -42,26 +50,46 @@ def test_environment_names_the_packages_of_pyproject():
     assert found == wanted()
 
 
-def test_lock_pins_every_package_with_hashes_and_names_no_index():
-    pinned = re.findall(
-        r"^([A-Za-z0-9._-]+)==\S+(?: ;[^\\\n]*)? \\\n    --hash=sha256:[0-9a-f]{64}", LOCK, re.M
-    )
-    heads = re.findall(r"^[^\s#].*$", LOCK, re.M)
-    assert len(pinned) == len(heads), "a line of requirements.lock is no pinned package with a hash"
-    assert wanted().keys() <= {canonicalize_name(name) for name in pinned}
-    assert not re.search(r"https?:|file:|^-", LOCK, re.M), "requirements.lock names an index or an address"
+@each_lock
+def test_lock_pins_every_package_with_hashes_and_names_no_index(name):
+    pinned = {canonicalize_name(pin[0]) for pin in PIN.findall(LOCKS[name])}
+    heads = re.findall(r"^[^\s#].*$", LOCKS[name], re.M)
+    assert len(PIN.findall(LOCKS[name])) == len(heads), "a line is no pinned package with a hash"
+    assert wanted(name).keys() <= pinned
+    assert not re.search(r"https?:|file:|^-", LOCKS[name], re.M), "the lock names an index or an address"
 
 
-def test_lock_satisfies_the_ranges_of_pyproject():
-    pins = {canonicalize_name(n): v for n, v in re.findall(r"^([A-Za-z0-9._-]+)==([^\s;]+)", LOCK, re.M)}
-    ranges = {name: Requirement(f"{name}{spec}").specifier for name, spec in wanted().items()}
+@each_lock
+def test_lock_satisfies_the_ranges_of_pyproject(name):
+    pins = {canonicalize_name(pin[0]): pin[1] for pin in PIN.findall(LOCKS[name])}
+    ranges = {name: Requirement(f"{name}{spec}").specifier for name, spec in wanted(name).items()}
     assert not {name: pins[name] for name, allowed in ranges.items() if pins[name] not in allowed}
+
+
+def test_locks_agree_and_the_book_needs_no_library():
+    pins: dict[tuple[str, str], set[str]] = {}
+    for name, lock in LOCKS.items():
+        for package, version, marker in PIN.findall(lock):
+            pins.setdefault((package, marker), set()).add(version)
+        assert name == "uv" or len(PIN.findall(lock)) > 20
+    assert not {package: found for package, found in pins.items() if len(found) > 1}
+    assert not {"numpy", "scipy", "numba", "matplotlib"} & {pin[0] for pin in PIN.findall(LOCKS["book"])}
+
+
+def test_hints_of_the_library_name_packages_that_it_uses():
+    """What a message tells the reader to install is a package of an extra, by its own name."""
+    known = packages([line for extra in EXTRAS.values() for line in extra])
+    hints = []
+    for path in (ROOT / "polyskel_lite").rglob("*.py"):
+        hints += re.findall(r"pip install ([\w {}.-]+?)(?=[\"`.\n]|``)", path.read_text(encoding="utf-8"))
+    assert len(hints) > 6
+    assert {name for hint in hints for name in hint.split() if name != "{name}"} <= set(known)
 
 
 def test_contributing_explains_every_dependency():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| (\S+) \| (\w+) \| \S.* \|$", text.split("## Dependencies", 1)[1], re.M)
-    groups = {"library": PROJECT["dependencies"], **EXTRAS}
+    groups = {"library": PROJECT["dependencies"], **EXTRAS, **GROUPS}
     needed = [(name, group) for group, lines in groups.items() for name in packages(lines)]
     assert sorted(set(rows) - {("package", "extra")}) == sorted(needed)
 
