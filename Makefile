@@ -18,8 +18,9 @@ help:  ## list the commands
 # One environment; the packages of a lock come when a command needs them, and again when the lock changes.
 LOCKS := $(VENV)/.book $(VENV)/.lab $(VENV)/.test $(VENV)/.lite
 $(LOCKS): $(VENV)/.%: requirements/%.lock
-	@command -v "$(PYTHON)" >/dev/null || { echo "There is no '$(PYTHON)'. Name a Python of 3.11 or newer," \
-	  "for example: make PYTHON=python3.12 $(or $(MAKECMDGOALS),book)"; exit 1; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+	  echo "polyskel_lite needs Python 3.11 or newer; '$(PYTHON)' is $$("$(PYTHON)" -V 2>/dev/null || echo not there)." \
+	       "Name another one, for example: make PYTHON=python3.12 $(or $(MAKECMDGOALS),book)"; exit 1; }
 	@"$(PYTHON)" tools/environment.py $*
 
 book: $(VENV)/.book  ## build the HTML book from book.toml and notebooks/

@@ -1,4 +1,4 @@
-"""Do what the README says in an empty environment: install with its command, then run its Python (``.ci/run``)."""
+"""Do what the README says in an empty environment: install with its command, then run its Python."""
 
 import re
 import shutil

@@ -1,8 +1,10 @@
-"""Make the environment of the project, or add to it what one command needs: ``python3 tools/environment.py book``.
+"""Make the environment, or add to it what one command needs: ``python3 tools/environment.py book``.
 
-One ``.venv`` for all, and a lock for each purpose (book, lab, test, lite), all resolved against one union, so that
-what one brings suits the others. uv, itself pinned with hashes, installs them; where it does not come, pip does.
+One ``.venv`` for all, and a lock for each purpose (book, lab, lite, test), resolved against one union, so that
+what one brings suits the others. uv, pinned with hashes as well, installs them; where it fails, pip does.
 """
+
+from __future__ import annotations
 
 import os
 import subprocess
@@ -10,65 +12,57 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-VENV = ROOT / ".venv"
-BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
-PYTHON = BIN / "python"
-#: Building the book needs no library.
-WITHOUT_LIBRARY = ("book",)
+BIN = ROOT / ".venv" / ("Scripts" if os.name == "nt" else "bin")
+PYTHON = str(BIN / "python")
 
 
-def run(*command, quiet=False):
-    """Whether a command of the environment succeeds, with pip's own index and certificates for uv as well."""
-    names = dict(os.environ, VIRTUAL_ENV=str(VENV), PIP_DISABLE_PIP_VERSION_CHECK="1")
-    if "UV_DEFAULT_INDEX" not in names and index():
-        names["UV_DEFAULT_INDEX"] = index()
+def settings() -> dict[str, str]:
+    """The variables of this process, and pip's own index and certificates told to uv."""
+    names = os.environ | {"VIRTUAL_ENV": str(BIN.parent), "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    command = [PYTHON, "-m", "pip", "config", "get", "global.index-url"]
+    index = (
+        names.get("PIP_INDEX_URL") or subprocess.run(command, capture_output=True, text=True).stdout.strip()
+    )
+    if index:
+        names.setdefault("UV_DEFAULT_INDEX", index)
     if "PIP_CERT" in names:
         names.setdefault("SSL_CERT_FILE", names["PIP_CERT"])
-    out = subprocess.DEVNULL if quiet else None
-    return (
-        subprocess.run(
-            [str(part) for part in command], cwd=ROOT, env=names, stdout=out, stderr=out
-        ).returncode
-        == 0
-    )
+    return names
 
 
-def index():
-    """The package index that pip is told to use, if it is told one."""
-    command = [str(PYTHON), "-m", "pip", "config", "get", "global.index-url"]
-    said = subprocess.run(command, capture_output=True, text=True)
-    return os.environ.get("PIP_INDEX_URL") or (said.stdout.strip() if said.returncode == 0 else "")
+def works(*command: str) -> bool:
+    """Whether a command succeeds; one that is not there does not."""
+    try:
+        return subprocess.run(command, cwd=ROOT, env=settings()).returncode == 0
+    except FileNotFoundError:
+        return False
 
 
-def install(*arguments):
+def install(*arguments: str) -> None:
     """Install with uv, and where that fails with pip."""
-    pip = [PYTHON, "-m", "pip", "install", "-q"]
-    if not (BIN / "uv").exists() and not (BIN / "uv.exe").exists():
-        run(*pip, "--require-hashes", "--only-binary", ":all:", "-r", "requirements/uv.lock", quiet=True)
-    if run(BIN / "uv", "pip", "install", *arguments) if list(BIN.glob("uv*")) else False:
+    uv, pip = str(BIN / "uv"), (PYTHON, "-m", "pip", "install", "-q")
+    if not works(uv, "-q", "--version"):
+        works(*pip, "--require-hashes", "--only-binary", ":all:", "-r", "requirements/uv.lock")
+    if works(uv, "pip", "install", *arguments):
         return
-    print("uv is not at hand or failed; pip does it, which takes a few minutes.", flush=True)
-    if not run(*pip, *arguments):
+    print("uv is not here, or failed. pip does the same in some minutes.", flush=True)
+    if not works(*pip, *arguments):
         sys.exit("The packages could not be installed; the lines above say why.")
 
 
-def main(purpose):
-    if sys.version_info < (3, 11):
-        sys.exit(
-            "polyskel_lite needs Python 3.11 or newer; {} is {}.{}. Name another one, for example: "
-            "make PYTHON=python3.12 {}".format(sys.executable, *sys.version_info[:2], purpose)
-        )
-    if not PYTHON.exists():
+def main(purpose: str) -> None:
+    if not Path(PYTHON).exists():
         print("Making the environment .venv ...", flush=True)
-        subprocess.run([sys.executable, "-m", "venv", str(VENV)], check=True)
+        subprocess.run([sys.executable, "-m", "venv", str(BIN.parent)], check=True)
     lock = f"requirements/{purpose}.lock"
     print(f"Installing the packages of {lock} into .venv (once, half a minute) ...", flush=True)
     install("--require-hashes", "-r", lock)
-    if purpose not in WITHOUT_LIBRARY:
+    if purpose != "book":  # which is built without the library
         install("--no-deps", "--no-build-isolation", "-e", ".")
+    if purpose in ("lab", "test"):
         print("Compiling the loops of the library (once, a quarter of a minute) ...", flush=True)
-        run(PYTHON, "-c", "from polyskel_lite.compiling import main; main()")
-    (VENV / f".{purpose}").touch()
+        works(PYTHON, "-c", "from polyskel_lite.compiling import main; main()")
+    (BIN.parent.parent / ".venv" / f".{purpose}").touch()
 
 
 if __name__ == "__main__":
