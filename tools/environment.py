@@ -1,7 +1,8 @@
 """Make the environment, or add to it what one command needs: ``python3 tools/environment.py book``.
 
-One ``.venv`` for all, and a lock for each purpose: book, lab, lite, test. All are resolved against one union, so
-what one brings suits the others. uv, pinned with hashes as well, installs them; where it fails, pip does.
+One ``.venv`` for all, and a lock for each purpose: book, lab, lite, test. All are resolved against one
+union, so what one brings suits the others. uv, pinned with hashes as well, installs them; where it fails,
+pip does.
 """
 
 from __future__ import annotations
