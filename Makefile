@@ -52,10 +52,11 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 	@echo "Pages, viewer and explorers in Chromium ..."
 	@BOOK="$(CURDIR)/_build/html" $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup tests/browser
 
-lab: $(VENV)/.lab  ## open the first chapter in JupyterLab
-	$(BIN)/jupyter lab $(FIRST)
+lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
+	@$(BIN)/python tools/working_copies.py _build/lab
+	$(BIN)/jupyter lab _build/lab/$(FIRST)
 
-lite: $(VENV)/.lite  ## build a site in which the chapters run in the browser, nothing to install
+lite: book $(VENV)/.lite  ## build a site in which the chapters run in the browser, nothing to install
 	@echo "Building the browser site (about ten seconds) ..."
 	@$(BIN)/python tools/build_lite.py --output _build/lite
 	@echo "The site is ready, for a web server. To try it: $(BIN)/python -m http.server --directory _build/lite"
@@ -86,6 +87,7 @@ lock:  ## maintainers: resolve pyproject.toml anew into requirements/*.lock (nee
 	@echo uv | uv pip compile - $(LOCKED) -o requirements/uv.lock
 	@rm requirements/union.txt
 
-clean:  ## remove what the commands above made, except the environment
-	rm -rf _build figures dist .pytest_cache .ruff_cache .hypothesis
+clean:  ## remove what the commands above made, except the environment and your copies in _build/lab
+	-find _build -mindepth 1 -maxdepth 1 ! -name lab -exec rm -rf {} +
+	rm -rf figures dist .pytest_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

@@ -15,27 +15,16 @@ import sys
 from pathlib import Path
 
 import nbformat
+import working_copies
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# Chapters read these beside themselves, or link to them.
-BESIDE = [
-    "notebooks/claims.toml",
-    "tools/register.py",
-    "polyskel_lite/**/*.py",
-    "tests/claims/*.py",
-    "tests/fuzz/*.py",
-    "tests/truth/*.py",
-    "benchmarks/*",
-]
-
 NOTE = """\
-```{{admonition}} Python in your browser
-:class: note
-This copy of the chapter runs on your own machine, in this page: nothing is installed, nothing is sent away.
-Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and Matplotlib, some
-30 MB that the browser keeps. Cells take two to ten times as long as in Python on your desktop.{missing}
-```"""
+> **Python in your browser**
+>
+> This copy of the chapter runs on your own machine, in this page: nothing is installed, nothing is sent away.
+> Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and Matplotlib, which
+> the browser keeps. Cells take two to ten times as long as in Python on your desktop.{missing}"""
 
 # A browser has no numba. What that means is said where a reader would wonder.
 SLOW = " The hierarchy of a large solid, compiled there, takes up to a minute here; its numbers are the same."
@@ -65,16 +54,13 @@ def browser_copy(notebook: nbformat.NotebookNode, stem: str) -> nbformat.Noteboo
 
 
 def write_files(folder: Path) -> None:
-    """Lay out the chapters and what they read, each at its place in the repository."""
-    for pattern in ["notebooks/*.ipynb", *BESIDE]:
-        for path in sorted(ROOT.glob(pattern)):
-            if path.is_file():
-                target = folder / path.relative_to(ROOT)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                if path.suffix == ".ipynb":
-                    nbformat.write(browser_copy(nbformat.read(path, as_version=4), path.stem), target)
-                else:
-                    shutil.copyfile(path, target)
+    """Lay out the working copies of the chapters and what they read, each at its place in the repository."""
+    working_copies.write(folder, ROOT / "_build" / "doctrees")
+    (folder / "copies.json").unlink()
+    for path in sorted((folder / "notebooks").glob("*.ipynb")):
+        notebook = nbformat.read(path, as_version=4)
+        notebook.cells = [cell for cell in notebook.cells if cell.id != "install"]
+        nbformat.write(browser_copy(notebook, path.stem), path)
 
 
 def run(*command: str, folder: Path = ROOT) -> None:

@@ -38,12 +38,24 @@ def proof(claim: dict[str, str]) -> str:
     """Where a proof stands, as MyST."""
     place = claim.get("proof", "")
     if place.startswith("cite:"):
-        return " Proved in {cite:t}`" + place.removeprefix("cite:") + "`."
+        return f" Proved by {source(place.removeprefix('cite:'))}."
     return f' <a href="{place}">A proof</a> is in the book.' if place else ""
 
 
+def source(key: str) -> str:
+    """First author and year of an entry of the bibliography, linked to the list of all."""
+    text = (NOTEBOOKS / "references.bib").read_text(encoding="utf-8")
+    entry = re.search(rf"@\w+\{{{key},\n(.*?)\n\}}", text, re.S)[1]
+    authors = re.search(r"author\s*= \{(.*)\}", entry)[1].split(" and ")
+    names = [author.split(",")[0].strip("{}") for author in authors]
+    year = re.search(r"year\s*= \{(\d+)\}", entry)[1]
+    others = {1: "", 2: f" and {names[-1]}"}.get(len(names), " and others")
+    return f'<a href="references.html">{names[0]}{others}, {year}</a>'
+
+
 def linked(text: str) -> str:
-    """Names of other claims in a text become links to their cards."""
+    """Names of other claims in a text become links to their cards, citations links to the sources."""
+    text = re.sub(r"\{cite\}`(\w+)`", lambda key: f"({source(key[1])})", text)
     return re.sub(r"\bsee ([a-z0-9]+(?:-[a-z0-9]+)+)\b", r'see <a href="#row-\1">\1</a>', text)
 
 

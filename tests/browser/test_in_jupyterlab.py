@@ -4,6 +4,7 @@ import json
 import math
 import os
 import re
+import runpy
 import secrets
 import socket
 import subprocess
@@ -24,6 +25,7 @@ from polyskel_lite import explore
 from .accessibility import findings
 
 pytestmark = pytest.mark.xdist_group("jupyterlab")  # one server
+ROOT = Path(__file__).resolve().parents[2]
 TOKEN = secrets.token_hex(16)
 STARTS = 90  # seconds in which the server must answer
 # No question about news, and none to the package index about a newer version.
@@ -238,4 +240,34 @@ def test_an_uploaded_file_goes_through_the_whole_chain(notebook, tmp_path):
         page.get_by_role("link", name="leaf-skeleton.npz").click()
     skeleton = psl.Skeleton.load(waiting.value.path())
     assert len(skeleton.vertices) == len(hierarchy.skeleton(threshold).vertices)
+    assert opened.outside() == []
+
+
+@pytest.mark.parametrize("name", ["02_1_shapes", "A_2_theorem_3", "claims"])
+def test_a_working_copy_runs_from_top_to_bottom(visit, lab, book, name):
+    """As `make lab` opens it: no role is left, the console is quiet, no cell fails, the sources stay."""
+    sources = {path: path.read_bytes() for path in (ROOT / "notebooks").glob("*.ipynb")}
+    working_copies = runpy.run_path(str(ROOT / "tools" / "working_copies.py"))
+    working_copies["write"](lab.folder / "copies", book.parent / "doctrees")
+    path = lab.folder / "copies" / "notebooks" / f"{name}.ipynb"
+    opened = visit(lab.address, f"lab/tree/copies/notebooks/{name}.ipynb?token={TOKEN}&reset")
+    page = opened.page
+    idle(page)
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    page.get_by_text("Python 3 (ipykernel) | Busy").wait_for()
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=240_000)
+    page.keyboard.press("Control+s")
+    deadline = time.monotonic() + 30
+    done = {}
+    while time.monotonic() < deadline and not done.get("metadata", {}).get("kernelspec"):
+        done = json.loads(path.read_text(encoding="utf-8"))
+    outputs = [o for cell in done["cells"] if cell["cell_type"] == "code" for o in cell["outputs"]]
+    assert [o for o in outputs if o["output_type"] == "error"] == []
+    assert all(cell["execution_count"] for cell in done["cells"] if cell["cell_type"] == "code")
+    assert page.locator(".jp-RenderedMarkdown", has_text=re.compile(r"\{\w+(:\w+)?\}`")).count() == 0
+    assert sources == {path: path.read_bytes() for path in sources}
+    # JupyterLab has words of its own (about the kernel of the browser site, which only tests install beside it).
+    ours = re.compile("psl|anywidget|widget|mathjax|traceback", re.IGNORECASE)
+    assert [text for text in opened.complaints if ours.search(text)] == []
     assert opened.outside() == []

@@ -1,0 +1,62 @@
+"""The chapters as plain notebooks: no MyST is left, numbers are the book's, a reader's changes are kept."""
+
+import json
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOL = runpy.run_path(str(ROOT / "tools" / "working_copies.py"))
+CHAPTERS = sorted(path.name for path in (ROOT / "notebooks").glob("*.ipynb"))
+NUMBERED = r"(?:Figure|Table|Exercise|Definition|Theorem|Proposition|Lemma|Algorithm|Property|Remark) \d+"
+
+
+@pytest.fixture(scope="module")
+def copies(book) -> dict[str, str]:
+    return TOOL["copies"](book.parent / "doctrees")
+
+
+def text(notebook: dict) -> str:
+    return "\n\n".join("".join(c["source"]) for c in notebook["cells"] if c["cell_type"] == "markdown")
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_no_role_and_no_directive_is_left(copies, name):
+    words = text(json.loads(copies[name]))
+    words = re.sub(r"```(?!\{).*?```", "", words, flags=re.S)  # code that is quoted
+    assert re.findall(r"\{[a-z:-]+\}`|^[`:]{3,}\{.*|^\([\w-]+\)=$|@@", words, re.M) == []
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_numbers_are_those_of_the_page(book, copies, name):
+    page = (book / name.replace(".ipynb", ".html")).read_text(encoding="utf-8")
+    there = re.findall(rf'<span class="caption-number">({NUMBERED}) ?', page)
+    words = text(json.loads(copies[name]))
+    here = re.findall(rf"^(?:> )?\*\*({NUMBERED})\.?\*\*", words, re.M)
+    assert sorted(here) == sorted(set(there))
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_code_and_outputs_are_the_chapter_s_own(copies, name):
+    source = json.loads((ROOT / "notebooks" / name).read_text(encoding="utf-8"))
+    kept = [[cell["source"], cell["outputs"]] for cell in source["cells"] if cell["cell_type"] == "code"]
+    copy = [cell for cell in json.loads(copies[name])["cells"] if cell["cell_type"] == "code"]
+    assert [[cell["source"], cell["outputs"]] for cell in copy if cell["id"] != "install"] == kept
+    for cell in copy:
+        if "hide-input" in cell["metadata"].get("tags", []):
+            assert cell["metadata"]["jupyter"]["source_hidden"]
+
+
+def test_what_a_reader_changed_is_kept(book, tmp_path):
+    doctrees = book.parent / "doctrees"
+    assert TOOL["write"](tmp_path, doctrees) == []
+    path = tmp_path / "notebooks" / CHAPTERS[0]
+    path.write_text("mine", encoding="utf-8")
+    assert TOOL["write"](tmp_path, doctrees) == []  # nothing new: nothing to say
+    record = tmp_path / "copies.json"
+    older = json.loads(record.read_text(encoding="utf-8")) | {CHAPTERS[0]: "what an older book had"}
+    record.write_text(json.dumps(older), encoding="utf-8")
+    assert TOOL["write"](tmp_path, doctrees) == [CHAPTERS[0]]
+    assert path.read_text(encoding="utf-8") == "mine"
