@@ -261,8 +261,13 @@ def contact_inside_an_arc():
         Y, (m, r) = truth(number, 2), grown(number, 2)
         skeleton = library(Y).skeleton()
         m, r = np.concatenate([m, skeleton.vertices]), np.concatenate([r, skeleton.radii])
-        exposed = Y.c[np.unique(Y.patch_ball)] + Y.origin
-        if distance_to_complex(exposed, skeleton.vertices).max() > 1e-8 * Y.size:
+        # The library has each exposed disc, with its radius.
+        own = np.unique(Y.patch_ball)
+        discs, found = (
+            np.column_stack([centers, radii])
+            for centers, radii in ((Y.c[own] + Y.origin, Y.r[own]), (skeleton.vertices, skeleton.radii))
+        )
+        if np.abs(discs[:, None] - found).max(axis=2).min(axis=1).max() > 1e-8 * Y.size:
             return verdict(False)
         d = lengths(m[:, None] - Y.patch_points - Y.origin) - r[:, None]
         arc = (np.abs(d) < TOLERANCE * Y.size).any(axis=1)

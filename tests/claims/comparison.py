@@ -306,6 +306,8 @@ def dense_samples_in_space():
         first, second = psl.sk0(shape), psl.sk2(shape)
         lost = ~np.isin(first.simplices, second.simplices)
         outside.append(lost.mean())
+        if not lost.any():
+            return seen(False)
         # What is lost are small balls at the surface: half of them, and most of what they are dual to.
         corners = first.tessellation.points[first.tessellation.simplices[first.simplices[lost]]]
         depth.append(np.median(shape.boundary_distance(corners.mean(axis=1))))

@@ -37,7 +37,7 @@ def figure_is(name: str, panels: int, shows: Callable[[Figure, list[Axes]], bool
         try:
             full = [ax for ax in figure.axes if ax.has_data()]
             complete = len(full) >= panels and bool(draw.caption and draw.alt)
-            return complete and bool(shows(figure, full)) and _as_stored(name, figure)
+            return complete and _as_stored(name, figure) and bool(shows(figure, full))
         finally:
             plt.close(figure)
 
