@@ -93,7 +93,10 @@ def lonely(Y: Union) -> list[int]:
 
 @check("def-minimal")
 def minimal_writing():
-    """Dropped: a ball in another one, or in the union of two. Kept: a filler, which has substitutes."""
+    """Dropped: a ball in another one, or in the union of two. Kept: a filler, which has substitutes.
+
+    Of random polyballs: all with a patch of the boundary are kept, and what is kept has the same union.
+    """
     centers, radii = FILLED
     Y = psl.Polyball([*centers, (1.5, 0.2)], [*radii, 0.4])
     other = psl.Polyball([*centers[:3], (-0.06, -0.04)], [1, 1, 1, 0.36])
@@ -101,7 +104,20 @@ def minimal_writing():
     same = (Y.contains(points) == other.contains(points)).all()
     hidden = psl.Polyball([(0, 0), (1, 0), (0.5, 0)], [1, 1, 0.7])
     kept = Y.generating().tolist() == [0, 1, 2, 3] and len(other.minimal()) == 4
-    return definition(same and kept and hidden.generating().tolist() == [0, 1])
+    row = psl.Polyball(ROW, [1, 1, 1]).generating(), psl.Polyball(ROW, [1, 0.8, 1]).generating()
+    dropped = [hidden.generating().tolist(), *(found.tolist() for found in row)]
+    plain = same and kept and dropped == [[0, 1], [0, 1, 2], [0, 2]]
+    return definition(plain and all(_writes_the_same(n, N) for N in (2, 3) for n in range(24)))
+
+
+def _writes_the_same(number: int, N: int) -> bool:
+    Y, rng = truth(number, N), np.random.default_rng(number)
+    least = library(Y).minimal()
+    m = Y.origin + Y.c.mean(axis=0) + rng.uniform(-1, 1, (2000, N)) * Y.size
+    needed = set(np.unique(Y.patch_ball).tolist()) <= set(library(Y).generating().tolist())
+    # Points that nearly are on a sphere say nothing.
+    clear = np.abs(Y.gap(m - Y.origin)).min(axis=1) > 1e-6 * Y.size
+    return needed and bool((least.contains(m) == Y.contains(m))[clear].all())
 
 
 @check("def-disconnected")
@@ -120,13 +136,57 @@ def disconnected_balls():
 
 @check("def-quasi-disconnected")
 def quasi_disconnected_balls():
-    """A lens that a third ball meets is not alone, though its rim is on the boundary."""
+    """A lens that a third ball meets is not alone, though its rim is on the boundary: a row of balls.
+
+    Of random polyballs the library lists the pairs whose lens, by the distance to it, no third ball meets.
+    """
     found = {}
     for step in (1.5, 1.01, 0.99, 0.5):
         row = psl.Polyball([(k * step, 0, 0) for k in range(3)], [1, 1, 1])
         assert row.exposed_pairs().tolist() == [[0, 1], [1, 2]]
         found[step] = len(row.quasi_disconnected())
-    return definition(found == {1.5: 2, 1.01: 2, 0.99: 0, 0.5: 0})
+    some = 0
+    for N in (2, 3):
+        for number in range(40):
+            if random_polyball(number, N)[0] in REDUNDANT:
+                continue
+            Y = truth(number, N)
+            if len(library(Y).generating()) != len(np.unique(Y.patch_ball)):
+                continue  # a filler generates, too, and the oracle does not know fillers
+            listed = library(Y).quasi_disconnected().tolist()
+            if listed != _lenses_alone(Y):
+                return definition(False)
+            some += len(listed)
+    return definition(some > 20 and found == {1.5: 2, 1.01: 2, 0.99: 0, 0.5: 0})
+
+
+def _lenses_alone(Y: Union) -> list[list[int]]:
+    """Pairs of generating balls that cross, and whose common part no other one reaches."""
+    balls, alone = np.unique(Y.patch_ball), []
+    for i, j in combinations(balls.tolist(), 2):
+        d = lengths(Y.c[j] - Y.c[i])
+        if not abs(Y.r[i] - Y.r[j]) < d < Y.r[i] + Y.r[j]:
+            continue
+        others = [k for k in balls.tolist() if k not in (i, j)]
+        if all(_from_lens(Y, i, j, Y.c[k]) > Y.r[k] for k in others):
+            alone.append([i, j])
+    return alone
+
+
+def _from_lens(Y: Union, i: int, j: int, m: np.ndarray) -> float:
+    """The distance from a point to what two crossing balls have in common."""
+    for one, other in ((i, j), (j, i)):
+        away = lengths(m - Y.c[one])
+        nearest = m if away <= Y.r[one] else Y.c[one] + (m - Y.c[one]) * Y.r[one] / away
+        if lengths(nearest - Y.c[other]) <= Y.r[other]:
+            return float(lengths(m - nearest))
+    # Else the nearest point is on the rim, the circle of both spheres.
+    d = lengths(Y.c[j] - Y.c[i])
+    normal = (Y.c[j] - Y.c[i]) / d
+    along = (d**2 + Y.r[i] ** 2 - Y.r[j] ** 2) / (2 * d)
+    middle, rim = Y.c[i] + along * normal, np.sqrt(Y.r[i] ** 2 - along**2)
+    up = (m - middle) @ normal
+    return float(np.hypot(up, lengths(m - middle - up * normal) - rim))
 
 
 @check("def-singular")
