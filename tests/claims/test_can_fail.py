@@ -155,7 +155,7 @@ MUTATIONS: dict[str, tuple[str, m.Mutation]] = {
     # 3.6
     "complexity-2d": VERTEX_LOST,
     "complexity-time": (
-        "every point is compared with every other",
+        "computed anew for every 2,000 points",
         m.instead(psl, "delaunay", m.slow),
     ),
     "complexity-3d": SIMPLEX_LOST,
