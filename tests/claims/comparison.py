@@ -34,6 +34,7 @@ from .geometry import (
     strictly_gabriel_boundary,
     volume,
 )
+from .pictures import default
 from .registry import check, seen, transcript, verdict
 
 
@@ -152,9 +153,9 @@ def premise_in_the_figures():
     """
     from polyskel_lite.figures import regular_shape
 
-    X, numbers = regular_shape(), (10, 36, 50, 100, 200)
-    polygons = [X.resample(n) for n in numbers] + [X.resample(36, start=0.5)]
-    assert [len(P.points) for P in polygons] == [*numbers, 36]
+    X, n, counts = regular_shape(), default("figure_4", "n"), default("figure_5", "counts")
+    polygons = [X.resample(k) for k in (n, *counts)] + [X.resample(n, start=0.5)]
+    assert [len(P.points) for P in polygons] == [n, *counts, n]
     assert not psl.delaunay_shape(ring(EMPTY)).is_gabriel()
     by_library = all(psl.delaunay_shape(P).is_gabriel() for P in polygons)
     return seen(by_library and all(map(strictly_gabriel_boundary, polygons)))

@@ -269,11 +269,11 @@ def _two_samplings(figure, panels) -> bool:
     graphs = [pieces(psl.voronoi(E).segments()) for E in samplings]
     differ = len(samplings[0]) == len(samplings[1]) and not np.array_equal(*samplings)
     skeletons = all(lines(ax) <= graphs[0] | graphs[1] for ax in below)
-    own = all(len(lines(ax) & graph) > 20 for ax, graph in zip(below, graphs, strict=True))
+    own = all(len(lines(ax) & graph) > 10 for ax, graph in zip(below, graphs, strict=True))
     balls = [
         sum(len(c.get_paths()) for c in ax.collections if isinstance(c, PatchCollection)) for ax in above
     ]
-    return differ and skeletons and own and min(balls) > 20
+    return differ and skeletons and own and min(balls) > 10
 
 
 @check("sampling-stable")
