@@ -6,6 +6,7 @@ from fractions import Fraction
 from functools import cache
 
 import numpy as np
+from truth import space
 from truth.rational import (
     dot,
     grid_region,
@@ -114,6 +115,48 @@ def inner_elements(shape: psl.Shape, side: int):
                 kept.add(frozenset((p, q)))
     touching = {m for m, place in where.items() if place == 0}
     return {m for m, place in where.items() if place == side}, kept, touching
+
+
+@cache
+def small_solids(stretch: int = 1, count: int = 6, n: int = 10) -> tuple[psl.Shape, ...]:
+    """Random pieces of Delaunay tessellations of ten whole-number points, all of them on the boundary.
+
+    Drawn out by ``stretch``, most of them have faces that are not Delaunay any more.
+    """
+    rng, found = np.random.default_rng(23), []
+    while len(found) < count:
+        t = psl.delaunay(rng.integers(0, 40, (n, 3)))
+        try:
+            shape = psl.DelaunayShape(t, rng.random(len(t.simplices)) < 0.85).to_shape()
+        except psl.ShapeError:
+            continue
+        if len(shape.points) == n:
+            found.append(psl.Shape(shape.points * [1, 1, stretch], shape.facets))
+    return tuple(found)
+
+
+def hull(points) -> psl.Shape:
+    """The convex hull of points in space, all of them on it."""
+    t = psl.delaunay(points)
+    return psl.DelaunayShape(t, np.ones(len(t.simplices), dtype=bool)).to_shape()
+
+
+def on_ellipsoid(n: int, axes=(2, 2, 1), seed: int = 1) -> np.ndarray:
+    """Random points of an ellipsoid; that with half axes 2, 2, 1 has the disc of radius 3/2 as skeleton."""
+    g = np.random.default_rng(seed).normal(size=(n, 3))
+    return g / np.linalg.norm(g, axis=1)[:, None] * np.array(axes)
+
+
+def in_space(shape: psl.Shape) -> space.Samples:
+    """A solid's samples, faces and skeletons by definition, in rational numbers."""
+    return space.samples(*(tuple(map(tuple, a.tolist())) for a in (shape.points, shape.facets)))
+
+
+def named(skeleton: psl.Skeleton) -> tuple[set, set, set]:
+    """Vertices, edges and polygons by the samples that they are equally far from: four, three, two."""
+    names = [frozenset(s) for s in skeleton.tessellation.simplices[skeleton.simplices].tolist()]
+    cells = [[[k] for k in range(len(names))], skeleton.edges.tolist(), skeleton.polygons]
+    return tuple({frozenset.intersection(*(names[k] for k in cell)) for cell in kind} for kind in cells)
 
 
 def open_gabriel(p, q, samples) -> bool:

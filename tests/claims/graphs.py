@@ -7,20 +7,24 @@ from functools import cache
 from itertools import combinations, pairwise
 
 import numpy as np
+from truth import space
 from truth.rational import circumcenter, dot, rational, strictly_gabriel, turn, voronoi_elements
 
 import polyskel_lite as psl
+from polyskel_lite.figures import definitions
 
 from .geometry import (
     OBTUSE_IN_3D,
     RIGHT_TRIANGLE,
     face_center,
     fractions,
+    named,
     open_gabriel,
     skew_lines,
     squared,
 )
-from .registry import check, definition, drawn, transcript, verdict
+from .pictures import dots, faces, figure_is, lines, pieces
+from .registry import check, definition, seen, transcript, verdict
 
 
 @cache
@@ -31,24 +35,65 @@ def integer_sets(count: int = 20, n: int = 12, dimension: int = 2, seed: int = 1
     return tuple(rng.permutation(lattice)[:n] for _ in range(count))
 
 
+@cache
+def general_sets(count: int = 3, n: int = 9) -> tuple[np.ndarray, ...]:
+    """Whole-number points in space without five on a sphere."""
+    rng = np.random.default_rng(14)
+    return tuple(rng.integers(0, 1000, (n, 3)) for _ in range(count))
+
+
 @check("def-voronoi")
 def voronoi_regions():
-    """Each Voronoi vertex is nearest to the samples of its simplex and to no other one, exactly."""
-    good = True
+    """Vertices, edges, rays and in space polygons of the library's graph, against the definition, exactly.
+
+    Each vertex is nearest to the samples of its simplex and to no other one; edges have two nearest samples
+    throughout, the library's are all there are, and a region ends nowhere else.
+    """
     for points in integer_sets():
         t = psl.delaunay(points)
-        samples = rational(points)
-        for triangle, center in zip(t.simplices.tolist(), psl.voronoi(t).vertices, strict=True):
-            m = circumcenter(*(samples[k] for k in triangle))
+        graph, samples = psl.voronoi(t), rational(points)
+        exact = [circumcenter(*(samples[k] for k in triangle)) for triangle in t.simplices.tolist()]
+        for triangle, m, center in zip(t.simplices.tolist(), exact, graph.vertices, strict=True):
             nearest = min(squared(m, s) for s in samples)
-            good &= all(squared(m, samples[k]) == nearest for k in triangle)
-            good &= np.abs(center - np.array(m, dtype=float)).max() < 1e-9
-    return definition(bool(good))
+            if any(squared(m, samples[k]) != nearest for k in triangle):
+                return definition(False)
+            if np.abs(center - np.array(m, dtype=float)).max() > 1e-9:
+                return definition(False)
+        edges = voronoi_elements(samples)[1]
+        bounded = {frozenset((a, b)) for _, _, a, b in edges if b is not None}
+        # Between cocircular samples the library has edges without a length.
+        found = {frozenset((exact[a], exact[b])) for a, b in graph.edges.tolist() if exact[a] != exact[b]}
+        unbounded = sorted(a for _, _, a, b in edges if b is None)
+        if found != bounded or sorted(exact[k] for k in graph.ray_vertices.tolist()) != unbounded:
+            return definition(False)
+    return definition(all(map(_voronoi_in_space, general_sets())))
+
+
+def _voronoi_in_space(points) -> bool:
+    """The library's elements are those of the spheres with no sample inside; polygons go around in order."""
+    spheres = space.empty_spheres(fractions(points))
+    shared, rings = space.sides(spheres), space.rings(spheres)
+    graph = psl.voronoi(points)
+    expected = set(spheres), {f for f, both in shared.items() if len(both) == 2}, set(rings)
+    names = [frozenset(s) for s in graph.tessellation.simplices[graph.simplices].tolist()]
+    exact = np.array([[float(x) for x in spheres[name]] for name in names])
+    walks = [rings[frozenset.intersection(*(names[k] for k in p))] for p in graph.polygons]
+    for polygon, walk in zip(graph.polygons, walks, strict=True):
+        steps = {frozenset(pair) for pair in zip(walk, walk[1:] + walk[:1], strict=True)}
+        mine = [names[k] for k in polygon]
+        if {frozenset(pair) for pair in zip(mine, mine[1:] + mine[:1], strict=True)} != steps:
+            return False
+    hull = sum(len(both) == 1 for both in shared.values())
+    near = np.abs(graph.vertices - exact).max() < 1e-9 * np.abs(exact).max()
+    return named(graph) == expected and bool(near) and len(graph.rays) == hull
 
 
 @check("voronoi-convex")
 def regions_are_convex():
-    """The middle of two points of a region is in the region, in whole numbers, in the plane and in space."""
+    """The middle of two points of a region is in the region, in whole numbers, in the plane and in space.
+
+    And of two Voronoi vertices of the library around one sample, up to rounding.
+    """
     rng = np.random.default_rng(3)
     for dimension in (2, 3):
         for points in integer_sets(8, dimension=dimension):
@@ -63,7 +108,21 @@ def regions_are_convex():
                     distance = ((middle - 2 * points) ** 2).sum(axis=1)
                     if distance[k] > distance.min():
                         return verdict(False)
+            if not _regions_of_the_library(points):
+                return verdict(False)
     return verdict(True)
+
+
+def _regions_of_the_library(points) -> bool:
+    graph = psl.voronoi(points)
+    corners = graph.tessellation.simplices[graph.simplices]
+    for k in range(len(points)):
+        own = graph.vertices[(corners == k).any(axis=1)]
+        middles = (own[:, None] + own).reshape(-1, points.shape[1]) / 2
+        distance = np.linalg.norm(middles[:, None] - points, axis=2)
+        if (distance[:, k] > distance.min(axis=1) * (1 + 1e-9)).any():
+            return False
+    return True
 
 
 @check("def-delaunay")
@@ -115,7 +174,27 @@ def duality():
         edges = {frozenset(rational(points[pair])) for pair in t.edges()}
         if not finite <= edges:
             return verdict(False)
-    return verdict(True)
+    return verdict(all(map(_dual_in_space, integer_sets(8, dimension=3))))
+
+
+def _dual_in_space(points) -> bool:
+    """Volumes add up to that of the hull, measured from its middle; each element has its dual."""
+    t = psl.delaunay(points)
+    graph, (facets, sides) = psl.voronoi(t), t.facet_table
+    corners = fractions(points)
+    whole = sum(abs(space.volume(*(corners[k] for k in s))) for s in t.simplices.tolist())
+    middle = tuple(sum(x) / len(corners) for x in zip(*corners, strict=True))
+    open_ = [f for f, s in zip(facets.tolist(), sides.tolist(), strict=True) if s[1] < 0]
+    for f in open_:  # all samples are on one side of it
+        signs = {space.sign(space.volume(*(corners[k] for k in f), p)) for p in corners}
+        if {1, -1} <= signs:
+            return False
+    hull = sum(abs(space.volume(*(corners[k] for k in f), middle)) for f in open_)
+    on_hull = {frozenset(pair) for f in open_ for pair in combinations(f, 2)}
+    inner_edges = len(t.edges()) - len(on_hull)
+    counts = len(graph.vertices), len(graph.edges), len(graph.rays), len(graph.polygons)
+    expected = len(t.simplices), len(facets) - len(open_), len(open_), inner_edges
+    return whole == hull and counts == expected
 
 
 def _twice_area(c):
@@ -140,7 +219,10 @@ def _twice_hull_area(points):
 
 @check("general-position")
 def general_position():
-    """Without four cocircular samples every Voronoi vertex has three; a square has one vertex with four."""
+    """Without four cocircular samples every Voronoi vertex has three; a square has one vertex with four.
+
+    In space the spheres through four samples with none inside are the library's tetrahedra, one each.
+    """
     rng = np.random.default_rng(8)
     simple = True
     for _ in range(6):
@@ -150,6 +232,9 @@ def general_position():
         simple &= len(psl.delaunay(points).simplices) == len(vertices)
     square, _ = voronoi_elements(rational([(0, 0), (1, 0), (1, 1), (0, 1)]))
     assert [len(on) for on in square.values()] == [4]
+    for points in general_sets():
+        tetrahedra = {frozenset(s) for s in psl.delaunay(points).simplices.tolist()}
+        simple &= tetrahedra == set(space.empty_spheres(fractions(points)))
     return verdict(simple)
 
 
@@ -196,8 +281,20 @@ def _gabriel_in_space() -> bool:
 
 @check("gabriel-in-delaunay")
 def gabriel_in_delaunay():
-    """Strict Gabriel edges are Delaunay edges; by the printed rule both diagonals of a square are Gabriel."""
+    """Strict Gabriel facets are Delaunay facets; by the printed rule both diagonals of a square are Gabriel.
+
+    Of all pairs, and in space all triples, that are Gabriel by definition none is missing in the library.
+    """
     strict = True
+    for points in integer_sets():
+        samples = rational(points)
+        pairs = combinations(range(len(points)), 2)
+        brute = {(i, j) for i, j in pairs if strictly_gabriel(samples[i], samples[j], samples)}
+        strict &= brute <= {tuple(sorted(e)) for e in psl.delaunay(points).edges().tolist()}
+    for points in general_sets():
+        samples, triples = fractions(points), combinations(range(len(points)), 3)
+        brute = {f for f in triples if space.strictly_gabriel(*(samples[k] for k in f), samples)}
+        strict &= bool(brute) and brute <= {tuple(sorted(f)) for f in psl.delaunay(points).facets().tolist()}
     for samples in map(rational, integer_sets()):
         delaunay = {frozenset((p, q)) for p, q, _, _ in voronoi_elements(samples)[1]}
         pairs = [pair for pair in combinations(samples, 2) if strictly_gabriel(*pair, samples)]
@@ -209,8 +306,13 @@ def gabriel_in_delaunay():
 
 @check("gabriel-by-voronoi-2d")
 def gabriel_by_voronoi():
-    """An edge meets its dual exactly if its open disk is empty, and crosses it if the closed one is."""
-    for samples in map(rational, integer_sets()):
+    """An edge meets its dual exactly if its open disk is empty, and crosses it if the closed one is.
+
+    The library's Gabriel graphs are the Delaunay edges that do.
+    """
+    for points in integer_sets():
+        samples = rational(points)
+        crossing, meeting = set(), set()
         for p, q, a, b in voronoi_elements(samples)[1]:
             middle = ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)
             if b is None:
@@ -223,6 +325,17 @@ def gabriel_by_voronoi():
                 meets, crosses = dot(middle, a, b) <= 0, dot(middle, a, b) < 0
             if meets != open_gabriel(p, q, samples) or crosses != strictly_gabriel(p, q, samples):
                 return verdict(False)
+            crossing |= {frozenset((p, q))} if crosses else set()
+            meeting |= {frozenset((p, q))} if meets else set()
+        t = psl.delaunay(points)
+        delaunay, strict, printed = (
+            {frozenset(samples[k] for k in pair) for pair in edges.tolist()}
+            for edges in (t.edges(), psl.gabriel(t), psl.gabriel(t, closed=False))
+        )
+        # Delaunay edges whose dual has no length, of cocircular samples, are in no list of Voronoi edges.
+        duals = {frozenset((p, q)) for p, q, _, _ in voronoi_elements(samples)[1]}
+        if strict != crossing or printed & duals != meeting & delaunay:
+            return verdict(False)
     return verdict(True)
 
 
@@ -256,5 +369,27 @@ def face_dimension():
 
 @check("fig-2")
 def figures():
-    drawn("figure_2_3d", 3)
-    return drawn("figure_2", 3)
+    """Each graph is drawn whole, over its samples; in space the region of a point, tetrahedra, triangles."""
+    return seen(figure_is("figure_2", 3, _three_graphs) and figure_is("figure_2_3d", 3, _three_in_space))
+
+
+def _three_graphs(figure, panels) -> bool:
+    points = definitions.POINTS_2D
+    t = psl.delaunay(points)
+    voronoi = psl.voronoi(t).segments()
+    low, high = points.min(axis=0), points.max(axis=0)
+    whole = ((voronoi > low) & (voronoi < high)).all(axis=(1, 2))  # the others are cut at the frame
+    shown = (
+        pieces(voronoi[whole]),
+        pieces(points[t.edges()]),
+        pieces(points[psl.gabriel(points)]),
+    )
+    sampled = all({*map(tuple, points.tolist())} <= {*map(tuple, dots(ax).tolist())} for ax in panels)
+    return sampled and all(graph and graph <= lines(ax) for graph, ax in zip(shown, panels, strict=True))
+
+
+def _three_in_space(figure, panels) -> bool:
+    t = psl.delaunay(definitions.POINTS_3D)
+    region = sum(0 in pair for pair in named(psl.voronoi(t))[2])
+    counts = region, 4 * len(t.simplices), len(psl.gabriel(t))
+    return all(count in faces(ax) for count, ax in zip(counts, panels, strict=True))

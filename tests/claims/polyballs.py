@@ -6,17 +6,32 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
+from matplotlib.collections import PatchCollection
 from truth.complexes import distance_to_complex
 from truth.medial import Union
 from truth.polyballs import random_polyball
 
 import polyskel_lite as psl
+from polyskel_lite import implicit
+from polyskel_lite.figures import regular_shape
 from polyskel_lite.figures.solids import orange
 
-from .geometry import ELLIPSE_SKELETON, SWALLOWED, ellipse, exact, ring, strictly_gabriel_boundary
+from .geometry import (
+    ELLIPSE_SKELETON,
+    SWALLOWED,
+    ellipse,
+    exact,
+    hull,
+    in_space,
+    on_ellipsoid,
+    ring,
+    small_solids,
+    strictly_gabriel_boundary,
+)
 from .introduction import L_SHAPE, _sites
 from .methods import dense_ellipse
-from .registry import check, definition, drawn, verdict
+from .pictures import default, dots, figure_is, lines, pieces
+from .registry import check, definition, seen, verdict
 
 
 @cache
@@ -26,20 +41,41 @@ def skeleton_of_ellipse(n: int, start: float = 0.3) -> psl.Skeleton:
 
 @check("voronoi-elements")
 def kinds_of_elements():
-    """Edges are straight and orthogonal to their Delaunay facet; polygons are flat and convex."""
-    points = np.random.default_rng(7).random((40, 3))
-    graph = psl.voronoi(points)
+    """Edges are orthogonal to their Delaunay facet, polygons flat, convex and orthogonal to their edge.
+
+    Of random points, and of Sk2: of an L in the plane, which has edges and no polygon, and of a solid.
+    """
+    rng = np.random.default_rng(7)
+    solid_ = psl.sk2(hull(on_ellipsoid(120)))
+    plane = psl.sk2(ring(L_SHAPE), ring(L_SHAPE).sample(60))
+    graphs = [psl.voronoi(rng.random((40, 2))), psl.voronoi(rng.random((40, 3))), plane, solid_]
+    if not all(map(_straight_and_flat, graphs)):
+        return verdict(False)
+    some = [(len(g.edges) > 20, len(g.polygons) > 20) for g in graphs]
+    return verdict(some == [(True, False), (True, True), (True, False), (True, True)])
+
+
+def _straight_and_flat(graph: psl.Skeleton) -> bool:
+    t, bends = graph.tessellation, [0.0]
+    names = [set(s) for s in t.simplices[graph.simplices].tolist()]
+    for a, b in graph.edges.tolist():
+        facet = t.points[sorted(names[a] & names[b])]
+        way = graph.vertices[b] - graph.vertices[a]
+        sides = facet[1:] - facet[0]
+        # Vertices of thin simplices are far away and known to fewer digits.
+        scale = np.linalg.norm(sides, axis=1) * np.abs(graph.vertices[[a, b]]).max()
+        bends.append(np.abs(sides @ way / scale).max())
+        if len(facet) != t.dimension:
+            return False
     for polygon in graph.polygons:
-        corners = graph.vertices[polygon]
-        normal = np.linalg.svd(corners - corners.mean(axis=0))[2][2]
-        if np.abs((corners - corners.mean(axis=0)) @ normal).max() > 1e-6 * np.abs(corners).max():
-            return verdict(False)
+        p, q = t.points[sorted(set.intersection(*(names[k] for k in polygon)))]
+        corners, normal = graph.vertices[polygon], (q - p) / np.linalg.norm(q - p)
+        size = np.abs(corners).max()
+        bends.append(np.abs((corners - corners[0]) @ normal).max() / size)
         sides = np.roll(corners, -1, axis=0) - corners
         turns = np.cross(sides, np.roll(sides, -1, axis=0)) @ normal
-        if not ((turns > -1e-9).all() or (turns < 1e-9).all()):
-            return verdict(False)
-    plane = psl.sk2(ring(L_SHAPE), ring(L_SHAPE).sample(60))
-    return verdict(plane.edges.shape[1] == 2 and not len(plane.polygons))
+        bends.append(min(np.maximum(turns, 0).max(), np.maximum(-turns, 0).max()) / size**2)
+    return max(bends) < 1e-9
 
 
 @check("sk2-converges")
@@ -62,7 +98,20 @@ def union_of_inner_balls():
     distance = np.linalg.norm(Y.centers[:, None] - E, axis=2)
     on = np.sort(np.abs(distance - Y.radii[:, None]), axis=1)[:, :3].max()
     empty = (distance - Y.radii[:, None]).min()
-    return definition(len(Y) == inside.sum() and on < 1e-9 and empty > -1e-9)
+    plane = len(Y) == inside.sum() and on < 1e-9 and empty > -1e-9
+    same = np.array_equal(psl.delaunay_balls(horse, E).centers, Y.centers)
+    return definition(bool(plane and same) and all(map(_balls_in_space, (*small_solids(), *small_solids(3)))))
+
+
+def _balls_in_space(shape: psl.Shape) -> bool:
+    """In rational numbers: one ball for each centre in the solid, as large as the distance to its samples."""
+    X, Y = in_space(shape), psl.delaunay_balls(shape)
+    inner = sorted(X.sk1(), key=sorted)
+    centers = np.array([[float(x) for x in X.centers[four]] for four in inner])
+    radii = np.linalg.norm(centers - shape.points[[min(four) for four in inner]], axis=1)
+    mine, expected = np.column_stack([Y.centers, Y.radii]), np.column_stack([centers, radii])
+    far = np.abs(mine[:, None] - expected).max(axis=2)
+    return len(mine) == len(expected) and max(far.min(axis=0).max(), far.min(axis=1).max()) < 1e-9
 
 
 @check("sk2-polyball")
@@ -120,7 +169,21 @@ def polyball_comes_near():
         ]
         there, back = X.boundary_distance(np.array(points)).max(), Y.boundary_distance(ellipse(500)).max()
         distances.append(max(there, back))
-    return verdict(all(b < 0.5 * a for a, b in pairwise(distances)))
+    plane = all(b < 0.5 * a for a, b in pairwise(distances))
+    return verdict(plane and _comes_near_in_space())
+
+
+def _comes_near_in_space() -> bool:
+    """Torus: points of ∂X come nearer to ∂Y_w with more samples, and Y_w reaches less and less beyond X."""
+    field, u = implicit.torus(), np.random.default_rng(3).uniform(0, 2 * np.pi, (400, 2))
+    across = 1 + 0.4 * np.cos(u[:, 1])
+    points = np.column_stack([across * np.cos(u[:, 0]), across * np.sin(u[:, 0]), 0.4 * np.sin(u[:, 1])])
+    there, beyond = [], []
+    for n in (100, 400):
+        Y = psl.sk2(implicit.solid(field, n)).balls()
+        there.append(Y.boundary_distance(points).max())
+        beyond.append((field(Y.centers) + Y.radii).max())  # the field is the distance to the torus
+    return there[1] < 0.7 * there[0] and beyond[1] < 0.7 * beyond[0]
 
 
 def _polyball(seed: int = 3) -> psl.Polyball:
@@ -196,7 +259,21 @@ def _flat_convex_polygons() -> bool:
 
 @check("fig-4")
 def figure():
-    return drawn("figure_4", 4)
+    return seen(figure_is("figure_4", 4, _two_samplings))
+
+
+def _two_samplings(figure, panels) -> bool:
+    """Above, balls through the samples that are drawn there; below, Voronoi edges of both sets of samples."""
+    above, below = panels[:2], panels[2:]
+    samplings = [np.unique(dots(ax), axis=0) for ax in above]
+    graphs = [pieces(psl.voronoi(E).segments()) for E in samplings]
+    differ = len(samplings[0]) == len(samplings[1]) and not np.array_equal(*samplings)
+    skeletons = all(lines(ax) <= graphs[0] | graphs[1] for ax in below)
+    own = all(len(lines(ax) & graph) > 10 for ax, graph in zip(below, graphs, strict=True))
+    balls = [
+        sum(len(c.get_paths()) for c in ax.collections if isinstance(c, PatchCollection)) for ax in above
+    ]
+    return differ and skeletons and own and min(balls) > 10
 
 
 @check("sampling-stable")
@@ -230,10 +307,28 @@ def polygon_skeleton_has_branches():
         reach = np.abs(on_branch[:, 1]).max()
         if not (np.ptp(nearest, axis=1).max() < 1e-9 and ring(E).contains(on_branch).all() and reach > 0.49):
             return verdict(False)
+    # The library's skeleton of the polygon itself, from many samples of its sides, reaches the corners too.
+    branchy = psl.sk2(ring(ellipse(20)), ring(ellipse(20)).sample(8000, start=0.5))
+    if distance_to_complex(ellipse(20), branchy.vertices, branchy.edges).max() > 0.05:
+        return verdict(False)
     second = psl.hausdorff(skeleton_of_ellipse(80), ELLIPSE_SKELETON)
     return verdict(second < 0.01)
 
 
 @check("fig-5")
 def convergence_figure():
-    return drawn("figure_5", 6)
+    return seen(figure_is("figure_5", 6, _more_and_more_samples))
+
+
+def _more_and_more_samples(figure, panels) -> bool:
+    """Over the first panel's skeleton Sk2 of the samples drawn; of noisy samples, last, it has more edges."""
+    X, counts = regular_shape(default("figure_5", "reference")), default("figure_5", "counts")
+    exact_ = lines(panels[0])
+    for n, ax in zip(counts, panels[1:-1], strict=True):
+        E = X.sample(n)
+        drawn = {*map(tuple, dots(ax).tolist())} == {*map(tuple, E.tolist())}
+        if not (drawn and pieces(psl.sk2(X, E).segments()) == lines(ax) - exact_):
+            return False
+    rough = pieces(psl.voronoi(dots(panels[-1])).segments())
+    barbs = lines(panels[-1]) - exact_
+    return barbs <= rough and len(barbs) >= len(lines(panels[-2]) - exact_) and len(exact_) > 100

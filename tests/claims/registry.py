@@ -53,19 +53,3 @@ def seen(again: bool) -> str:
     if not again:
         raise AssertionError("not seen on our data")
     return "seen on our own data"
-
-
-def drawn(name: str, panels: int) -> str:
-    """The verdict of a figure: the library draws it, with all panels, a caption and an alternative text."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    from polyskel_lite.figures import FIGURES
-
-    draw = FIGURES[name]
-    figure = draw()
-    full = [ax for ax in figure.axes if ax.has_data() or ax.get_legend()]
-    plt.close(figure)
-    return seen(len(full) >= panels and bool(draw.caption and draw.alt))

@@ -306,6 +306,34 @@ def shuffled(seed: int):
     return lambda removable: choice(sorted(removable, key=lambda entry: sorted(entry[2])))
 
 
+def in_order(h: psl.Hierarchy) -> list[Simplex]:
+    """What the library removes, one after the other."""
+    return [frozenset(s) for s in h.P.tessellation.simplices[h.simplices[h.order]].tolist()]
+
+
+def library_dual(P: psl.DelaunayShape, alive: Iterable[Simplex]) -> tuple[set, ...]:
+    """Sk0 of some simplices of a region by the library, its cells named as `Region.dual` names them."""
+    alive, t = set(alive), P.tessellation
+    inner = np.array([frozenset(s) in alive for s in t.simplices.tolist()])
+    skeleton = psl.sk0(psl.DelaunayShape(t, inner))
+    vertices = [frozenset(s) for s in t.simplices[skeleton.simplices].tolist()]
+    edges = {frozenset(vertices[k] for k in edge) for edge in skeleton.edges.tolist()}
+    if t.dimension == 2:
+        return set(vertices), edges
+    polygons = {
+        frozenset(frozenset(vertices[k] for k in pair) for pair in pairwise([*p, p[0]]))
+        for p in map(list, skeleton.polygons)
+    }
+    return set(vertices), edges, polygons
+
+
+def library_betti(P: psl.DelaunayShape, alive: Iterable[Simplex]) -> tuple[int, ...]:
+    """Betti numbers of Sk0 of some simplices of a region, by the library."""
+    alive, t = set(alive), P.tessellation
+    inner = np.array([frozenset(s) in alive for s in t.simplices.tolist()])
+    return psl.sk0(psl.DelaunayShape(t, inner)).betti()
+
+
 def names(P: psl.DelaunayShape, rows: np.ndarray) -> set[frozenset[int]]:
     return {frozenset(s) for s in P.tessellation.simplices[rows].tolist()}
 
