@@ -81,7 +81,7 @@ class Bones:
         radii = self.skeleton.radii
         least = 2 * FLOOR[self.given.dimension] * radii.max(initial=0.0) if self.densified else 0.0
         true = self.given.boundary_distance(self.skeleton.vertices[radii > least])
-        ratio = float((radii[radii > least] / np.maximum(true, 1e-300)).max(initial=1.0))
+        ratio = float((radii[radii > least] / np.maximum(true, 5e-324)).max(initial=1.0))
         return Quality(ratio, len(self.refined.points) - len(self.given.points))
 
 

@@ -243,6 +243,25 @@ def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
     return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors), exponent
 
 
+def moved_back(tessellation: Tessellation, exponent: int, given: np.ndarray) -> Tessellation | None:
+    """A tessellation in a power of two of its unit; the first points are those given, digit by digit.
+
+    None where the smallest floats have too few digits: there it is to be made anew.
+
+    Examples
+    --------
+    >>> from polyskel_lite import delaunay
+    >>> large = 2.0**900 * np.eye(3, 2)
+    >>> bool((moved_back(delaunay(np.eye(3, 2)), 900, large).points == large).all())
+    True
+    """
+    points = np.ldexp(tessellation.points, exponent)
+    points[: len(given)] = given
+    if not np.array_equal(np.ldexp(points, -exponent), tessellation.points):
+        return None
+    return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors)
+
+
 def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Circumcenters and circumradii of simplices with corners (t, N+1, N).
 

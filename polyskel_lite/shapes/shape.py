@@ -349,7 +349,9 @@ class Shape(Boundary):
             quarter of the radius of the largest ball inside that touches there.
         floor : float, optional
             Without a spacing: the smallest radius that is followed into corners, where the width goes to
-            zero; by default a two-hundredth of the largest one in 2D, a quarter of it in 3D.
+            zero; by default a two-hundredth of the largest one in 2D, a quarter of it in 3D. The default is
+            raised where it would take some 60,000 samples (in 3D 30,000): needles keep balls that are too
+            large, which `polyskel_lite.skeleton` tells.
 
         Returns
         -------
@@ -360,7 +362,7 @@ class Shape(Boundary):
         Raises
         ------
         InputError
-            If spacing or floor is not a positive length, or the spacing asks for too many vertices.
+            If spacing or floor is not a positive length, or asks for too many vertices.
 
         Examples
         --------

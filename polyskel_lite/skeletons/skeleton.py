@@ -132,7 +132,7 @@ class Skeleton:
         >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).lengths().round(3).tolist()
         [0.559]
         """
-        return np.linalg.norm(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
+        return np.hypot.reduce(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
 
     def length(self) -> float:
         """Total length of the edges (rays not counted).
