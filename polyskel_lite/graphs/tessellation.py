@@ -50,6 +50,10 @@ class Tessellation:
     simplices: np.ndarray
     neighbors: np.ndarray
 
+    def __repr__(self):
+        kind = "triangles" if self.dimension == 2 else "tetrahedra"
+        return f"Tessellation({self.dimension}D, {len(self.points):,} points, {len(self.simplices):,} {kind})"
+
     def __post_init__(self):
         points = as_points(self.points)
         corners = points.shape[1] + 1

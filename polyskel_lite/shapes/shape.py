@@ -94,6 +94,10 @@ class Shape(Boundary):
     points: np.ndarray
     facets: np.ndarray
 
+    def __repr__(self):
+        kind = "segments" if self.dimension == 2 else "triangles"
+        return f"Shape({self.dimension}D, {len(self.points):,} points, {len(self.facets):,} {kind})"
+
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
         self._set(points, as_indices(self.facets, "facets", len(points), points.shape[1]))

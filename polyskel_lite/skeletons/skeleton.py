@@ -67,6 +67,11 @@ class Skeleton:
     #: `Polyball`, which puts itself here: its skeleton is a Skeleton, so the rooms cannot both import.
     _polyball: ClassVar[Callable[..., Any]]
 
+    def __repr__(self):
+        also = [f"{len(some):,} {name}" for name in ("polygons", "rays") if len(some := getattr(self, name))]
+        counts = [f"{len(self.vertices):,} vertices", f"{len(self.edges):,} edges", *also]
+        return f"Skeleton({self.dimension}D, {', '.join(counts)})"
+
     def __post_init__(self):
         self._check()
         # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
