@@ -214,16 +214,16 @@ class _Rule:
             times = longest[:, None] / (SHARE * np.maximum(widths, self.least))
             return n + (times**2 / 1.4 if widths.shape[1] == 4 else times).mean(axis=1).sum()
 
-        def lower(most, highest=np.inf):
+        def fit(most, highest=np.inf):
             while self.least < highest and wanted() > most:
                 self.least *= 2
 
         if self.floor is None:
-            lower(self.most, self.largest)  # corners are given up first
+            fit(self.most, self.largest)  # corners are given up first
             # What is far too thin everywhere stays wrong with more samples, too.
-            lower(self.limit if wanted() < 10 * self.limit else self.most)
+            fit(self.limit if wanted() < 10 * self.limit else self.most)
             return
-        lower(self.limit)
+        fit(self.limit)
         if self.least > self.floor:
             self._refuse(f"takes more than {self.limit:,} vertices", self.least)
 
@@ -234,9 +234,7 @@ class _Rule:
 
 def _refined(points, facets, spacing, rule=None):
     """Cut facets longer than the spacing, or than the rule says, until none is."""
-    fresh, widths = np.arange(len(facets)), np.full((len(facets), 1), np.nan)
-    if rule is not None:
-        widths = np.repeat(widths, _PLACES[points.shape[1]].shape[0], axis=1)
+    fresh, widths = np.arange(len(facets)), np.full((len(facets), len(_PLACES[points.shape[1]])), np.nan)
     limit = rule.limit if rule else MOST_POINTS
     with Progress(f"densify, of {limit:,} samples at most", limit) as progress:
         while len(fresh):

@@ -15,9 +15,8 @@ def solid(rng) -> psl.Shape:
     """Part of a random tessellation, squeezed, so that its own Voronoi graph leaves it."""
     while True:
         size = int(rng.integers(2, 12))
-        points = np.unique(rng.integers(0, size + 1, size=(int(rng.integers(6, 11)), 3)), axis=0).astype(
-            float
-        )
+        points = rng.integers(0, size + 1, size=(int(rng.integers(6, 11)), 3)).astype(float)
+        points = np.unique(points, axis=0)
         try:
             t = psl.delaunay(points)
             shape = psl.DelaunayShape(t, rng.random(len(t.simplices)) < 0.8).to_shape()
