@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .checks import MOST_POINTS
 from .containment import conform, delaunay_shape
 from .errors import CoarseSamplingWarning, InputError, PolyskelError
 from .progress import Progress
-from .shapes import FLOOR, Shape
+from .shapes import FLOOR, SHARE, Shape
 from .simplification import STRATEGIES, Hierarchy, hierarchy
 from .skeletons import Branch, Skeleton, branch_graph, branch_rows
 
@@ -66,6 +67,9 @@ class Bones:
     threshold: float
     densified: bool
 
+    def __repr__(self):
+        return f"Bones({self.skeleton!r} at {self.threshold:.4g}, {self.hierarchy.strategy!r})"
+
     @cached_property
     def skeleton(self) -> Skeleton:
         """The simplified skeleton."""
@@ -79,11 +83,44 @@ class Bones:
     @cached_property
     def quality(self) -> Quality:
         """How far its balls can be believed."""
+        return Quality(self._worst[0], len(self.refined.points) - len(self.given.points))
+
+    @cached_property
+    def _worst(self) -> tuple[float, float]:
+        """The largest ratio of a radius to the true one, and that one."""
         radii = self.skeleton.radii
         least = 2 * FLOOR[self.given.dimension] * radii.max(initial=0.0) if self.densified else 0.0
         true = self.given.boundary_distance(self.skeleton.vertices[radii > least])
-        ratio = float((radii[radii > least] / np.maximum(true, 1e-300)).max(initial=1.0))
-        return Quality(ratio, len(self.refined.points) - len(self.given.points))
+        with np.errstate(over="ignore"):
+            ratio = radii[radii > least] / np.maximum(true, 5e-324)
+        if ratio.max(initial=1.0) <= 1:
+            return 1.0, np.inf
+        return float(ratio.max()), float(true[ratio.argmax()])
+
+    def warning(self) -> str:
+        """What is wrong with its balls, and what to do; an empty string if nothing is.
+
+        Examples
+        --------
+        >>> skeleton([[(0, 0), (20, 0), (20, 4), (0, 4)]]).warning()
+        ''
+        """
+        ratio, room = self._worst
+        if ratio <= WORST:
+            return ""
+        advice = "let it be densified, or resample it"
+        if self.densified:
+            closer = SHARE * room
+            count = self.given.boundary_measure() / closer
+            advice = f"densify({closer:.1g}) adds the {count:,.0f} samples that its width asks for"
+            if not count < MOST_POINTS or self.given.dimension == 3:
+                advice = f"it is {2 * room:.1g} wide there, too thin for its size: widen it"
+        elif self.given.dimension == 3:
+            advice = "densify() it, or remesh it more finely"
+        return (
+            f"the samples are too coarse: a ball of this skeleton is {ratio:.2f} times as large as the room "
+            f"around its centre; {advice}, or raise the threshold."
+        )
 
 
 def skeleton(
@@ -99,7 +136,10 @@ def skeleton(
     ----------
     source : Shape, path, or list of rings
     threshold : float, optional
-        In radians; by default 3 for "branch", π/3 for "surface", 2π for "wireframe".
+        In radians; by default 3 for "branch", π/3 for "surface", 2π for "wireframe": a round end, half a
+        sphere, is worth that, so the wires of round limbs end where their ends begin. Edges stick out
+        farther: the wires toward those of a box, a prism or a plan in space go at 4π to 6π, which would cost
+        every round limb one to two radii at each end.
     strategy : "branch" (2D), "surface" or "wireframe" (3D), optional
         See `hierarchy`.
     densify : bool
@@ -140,21 +180,45 @@ def skeleton(
         strategy = STRATEGIES[given.dimension][0]
     if strategy not in THRESHOLDS:
         raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(THRESHOLDS)}.")
-    threshold = THRESHOLDS[strategy] if threshold is None else threshold
-    bones = None
-    for denser in (False, True) if densify and given.dimension == 3 else (densify,):
-        if bones is None or bones.quality.ratio > COARSE:
-            refined = conform(given.densify() if denser else given)
-            bones = Bones(given, refined, hierarchy(delaunay_shape(refined), strategy), threshold, denser)
-    if bones.quality.ratio > WORST:
-        advice = "remesh it more finely" if densify else "let it be densified, or resample it"
-        warnings.warn(
-            f"the samples are too coarse: a ball of this skeleton is {bones.quality.ratio:.2f} times as "
-            f"large as the room around its centre; {advice}, or raise the threshold.",
-            CoarseSamplingWarning,
-            stacklevel=2,
-        )
+    (bones,) = refined_bones(given, (strategy,), threshold, densify)
+    if sentence := bones.warning():
+        warnings.warn(sentence, CoarseSamplingWarning, stacklevel=2)
     return bones
+
+
+def refined_bones(
+    given: Shape, strategies: Sequence[str], threshold: float | None = None, densify: bool = True
+) -> list[Bones]:
+    """Refine a shape, and find its hierarchy by each strategy; see `skeleton`.
+
+    Parameters
+    ----------
+    given : Shape
+    strategies : sequence of str
+        All for the dimension of the shape. In space samples are added if one of their skeletons asks for it.
+    threshold : float, optional
+        In radians; by default that of `THRESHOLDS`.
+    densify : bool
+
+    Returns
+    -------
+    list of Bones
+        One for each strategy, all of the same refined shape.
+
+    Examples
+    --------
+    >>> plan = Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    >>> [bones.densified for bones in refined_bones(plan, ["branch"])]
+    [True]
+    """
+    found: list[Bones] = []
+    thresholds = {s: THRESHOLDS[s] if threshold is None else threshold for s in strategies}
+    for denser in (False, True) if densify and given.dimension == 3 else (densify,):
+        if not found or max(bones.quality.ratio for bones in found) > COARSE:
+            refined = conform(given.densify() if denser else given)
+            P = delaunay_shape(refined)
+            found = [Bones(given, refined, hierarchy(P, s), t, denser) for s, t in thresholds.items()]
+    return found
 
 
 class BranchCounts(NamedTuple):

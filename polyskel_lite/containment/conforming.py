@@ -11,7 +11,17 @@ from scipy.spatial import cKDTree
 from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
 from ..errors import DuplicatePointError, InputError, TessellationError
 from ..exact import in_gabriel_ball, overlapping_pairs, point_segment_distance
-from ..graphs import OPPOSITE, Change, Tessellation, facet_rows, gabriel_mask, grown_from, preferring
+from ..graphs import (
+    OPPOSITE,
+    Change,
+    Tessellation,
+    facet_rows,
+    gabriel_mask,
+    grown_from,
+    moved_back,
+    ordinary,
+    preferring,
+)
 from ..shapes import Shape, check_shape
 from .conforming_solids import conform_solid
 
@@ -110,6 +120,15 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
         to = "gabriel" if shape.dimension == 2 else "delaunay"
     as_choice(to, "graph", _GRAPHS)
     limit = _limit(limit)
+    scaled, exponent = ordinary(shape.tessellation)
+    if exponent:  # in a unit in which squares of lengths are ordinary floats
+        small = conform(Shape.refined(shape.facets, scaled), to, limit)
+        if np.array_equal(small.facets, shape.facets):
+            return shape
+        back = moved_back(small.tessellation, exponent, shape.points)
+        if back is None:
+            raise TessellationError("the vertices are among the smallest floats, multiply all by 2**200.")
+        return Shape.refined(small.facets, back)
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)
     *_, (last, tessellation) = _stages(shape, to, limit)
@@ -290,10 +309,18 @@ def _no_room(shape: Shape, points: np.ndarray, new: np.ndarray) -> TessellationE
     point = new[first[count > 1].min()]
     _, (i, j) = cKDTree(shape.points).query(point, k=2)
     apart = np.linalg.norm(shape.points[i] - shape.points[j])
+    where = f"near {near(point[None])}, floats leave no room for another vertex"
+    before, after = (shape.points[shape.facets[shape.facets[:, k] == i, 1 - k][0]] for k in (1, 0))
+    u, v = before - shape.points[i], after - shape.points[i]
+    angle = np.arctan2(abs(u[0] * v[1] - u[1] * v[0]), u @ v)
+    if angle < 1e-3 and apart > 1e-6 * np.abs(shape.points[i]).max():
+        return TessellationError(
+            f"{where}: the sides at vertex {i} enclose {angle:.1g} radians, so that the shape is "
+            f"{angle * apart:.1g} wide at a distance of {apart:.2g}. Cut the tip off, or widen it."
+        )
     return TessellationError(
-        f"near {near(point[None])}, floats leave no room for another vertex: vertices "
-        f"{min(i, j)} and {max(i, j)} are {apart:.2g} apart there; merge vertices closer than "
-        f"{2 * apart:.1g}, or move the shape nearer to the origin."
+        f"{where}: vertices {min(i, j)} and {max(i, j)} are {apart:.2g} apart there; merge vertices closer "
+        f"than {2 * apart:.1g}, or move the shape nearer to the origin."
     )
 
 

@@ -33,6 +33,9 @@ class DelaunayShape:
     tessellation: Tessellation
     inner: np.ndarray
 
+    def __repr__(self):
+        return f"DelaunayShape({np.count_nonzero(self.inner):,} inner simplices of {self.tessellation!r})"
+
     def __post_init__(self):
         as_instance(
             self.tessellation, Tessellation, "tessellation", "a Tessellation, such as delaunay(points)"

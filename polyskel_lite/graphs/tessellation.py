@@ -50,6 +50,10 @@ class Tessellation:
     simplices: np.ndarray
     neighbors: np.ndarray
 
+    def __repr__(self):
+        kind = "triangles" if self.dimension == 2 else "tetrahedra"
+        return f"Tessellation({self.dimension}D, {len(self.points):,} points, {len(self.simplices):,} {kind})"
+
     def __post_init__(self):
         points = as_points(self.points)
         corners = points.shape[1] + 1
@@ -241,6 +245,25 @@ def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
         return tessellation, 0
     points = np.ldexp(tessellation.points, -exponent)
     return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors), exponent
+
+
+def moved_back(tessellation: Tessellation, exponent: int, given: np.ndarray) -> Tessellation | None:
+    """A tessellation in a power of two of its unit; the first points are those given, digit by digit.
+
+    None where the smallest floats have too few digits: there it is to be made anew.
+
+    Examples
+    --------
+    >>> from polyskel_lite import delaunay
+    >>> large = 2.0**900 * np.eye(3, 2)
+    >>> bool((moved_back(delaunay(np.eye(3, 2)), 900, large).points == large).all())
+    True
+    """
+    points = np.ldexp(tessellation.points, exponent)
+    points[: len(given)] = given
+    if not np.array_equal(np.ldexp(points, -exponent), tessellation.points):
+        return None
+    return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors)
 
 
 def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -66,6 +66,9 @@ class Polyball(BallBoundary):
     centers: np.ndarray
     radii: np.ndarray
 
+    def __repr__(self):
+        return f"Polyball({self.dimension}D, {len(self.radii):,} balls)"
+
     def __post_init__(self):
         centers = as_points(self.centers, name="centers")
         if not len(centers):

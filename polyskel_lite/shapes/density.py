@@ -8,11 +8,13 @@ radius of the largest ball inside the shape that touches the boundary at a point
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..checks import MOST_POINTS
 from ..errors import InputError
 from ..exact import locate, nearest_facets, nearest_on_facets
-from ..graphs import delaunay, grown_from, preferring
+from ..graphs import delaunay, grown_from, moved_back, preferring
+from ..progress import Progress
 from .splitting import split_edges
 
 #: Samples are at most this share of the local width apart: then a ball through them is at most 1 % too large.
@@ -20,8 +22,13 @@ SHARE = 1 / 4
 #: The least width that is followed into corners, as a share of the largest one, by dimension. In the plane a
 #: corner costs the logarithm of it, in space an edge costs its inverse.
 FLOOR = {2: 1 / 200, 3: 1 / 4}
-#: Where more vertices than this, and ten for each one given, would be needed, the floor is raised.
-MOST = 3_000
+#: Where corners would need more vertices than this, the floor is raised, by dimension; and so many more for
+#: each vertex given.
+MOST, EACH = {2: 3_000, 3: 8_000}, {2: 10, 3: 2}
+#: The same for all samples, so that it takes seconds. Shapes that are thinner than that are told.
+LIMIT = {2: 60_000, 3: 30_000}
+# Of the coordinates: below it, floats leave no room for samples in a corner.
+_FINEST = 1e-12
 # How far a ball may be from touching before it counts as touching.
 _TOUCH = 1e-9
 # Where on a facet its width is measured, in shares of its corners.
@@ -79,18 +86,41 @@ def local_width(boundary: np.ndarray, places: np.ndarray, normals: np.ndarray) -
     >>> local_width(rectangle.segments, np.array([[10.0, 0], [1, 0]]), up).round(9).tolist()
     [2.0, 1.0]
     """
+    boundary = np.asarray(boundary, dtype=np.float64)
     radius = np.full(len(places), float(np.ptp(boundary, axis=(0, 1)).max()))
-    active = np.arange(len(places))
-    while len(active):
-        x, n, r = places[active], normals[active], radius[active]
-        center = x + r[:, None] * n
-        distance, facet = nearest_facets(boundary, center)
-        way = nearest_on_facets(center, boundary[facet]) - x
+    corners = boundary.reshape(-1, boundary.shape[1])
+    tree = cKDTree(corners)
+
+    def through(point, x, n):
+        """Radius of the ball that touches at x and goes through another point."""
+        way = point - x
         depth = (way * n).sum(axis=1)
-        shrinks = (distance < r * (1 - _TOUCH)) & (depth > 0)
-        smaller = (way[shrinks] ** 2).sum(axis=1) / (2 * depth[shrinks])
-        radius[active[shrinks]] = np.minimum(smaller, r[shrinks])
-        active = active[shrinks][smaller < r[shrinks] * (1 - _TOUCH)]
+        return np.where(depth > 0, (way**2).sum(axis=1), np.inf) / np.where(depth > 0, 2 * depth, 1)
+
+    # Large balls have many facets near their surface, but one nearest corner: these shrink them first.
+    def by_corners(x, n, r):
+        distance, corner = tree.query(x + r[:, None] * n)
+        return distance, through(corners[corner], x, n)
+
+    def by_facets(x, n, r):
+        distance, facet = nearest_facets(boundary, x + r[:, None] * n)
+        facet = boundary[facet]
+        smaller = through(nearest_on_facets(x + r[:, None] * n, facet), x, n)
+        # The ball that touches its plane is the last one at once, if it touches inside the facet.
+        m = inner_normals(facet)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            last = ((x - facet[:, 0]) * m).sum(axis=1) / (1 - (m * n).sum(axis=1))
+        last = np.where((last > 0) & (last < smaller), last, np.minimum(smaller, r))
+        return distance, np.minimum(smaller, through(nearest_on_facets(x + last[:, None] * n, facet), x, n))
+
+    for shrunk in (by_corners, by_facets):
+        active = np.arange(len(places))
+        while len(active):
+            r = radius[active]
+            distance, smaller = shrunk(places[active], normals[active], r)
+            shrinks = (distance < r * (1 - _TOUCH)) & (smaller < r * (1 - _TOUCH))
+            active = active[shrinks]
+            radius[active] = smaller[shrinks]
     return radius
 
 
@@ -105,40 +135,45 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     >>> len(densified(square, np.array([(0, 1), (1, 2), (2, 3), (3, 0)]), 0.5, None)[0])
     16
     """
-    if spacing is not None:
-        _check_count(points[facets], spacing)
-        return *_refined(points, facets, None, lambda _, __: spacing, parts=None), None
+    exponent = int(np.frexp(np.abs(points).max())[1])
+    if abs(exponent) <= 200:
+        return _densified(points, facets, spacing, floor)
+    # In a unit in which squares of lengths are ordinary floats; a power of two changes no digit.
+    small = (None if value is None else float(np.ldexp(value, -exponent)) for value in (spacing, floor))
+    more, facets, tessellation = _densified(np.ldexp(points, -exponent), facets, *small, exponent)
+    back = None if tessellation is None else moved_back(tessellation, exponent, points)
+    if back is not None:
+        return back.points, facets, back
+    return np.concatenate([points, np.ldexp(more[len(points) :], exponent)]), facets, None
+
+
+def _densified(points, facets, spacing, floor, exponent=0):
     boundary = points[facets]
-    widths = _widths(boundary, boundary)
-    most = MOST + 10 * len(points)
-    least = FLOOR[points.shape[1]] * widths.max() if floor is None else floor
-
-    def wanted(widths, count):
-        nonlocal least, most
-        # Needles: the sharper a corner, the more samples for each halving of the width.
-        if count > most:
-            least, most = 4 * least, most + MOST
-        return SHARE * np.maximum(widths, least)
-
-    points, facets = _refined(points, facets, boundary, wanted, parts=2)
+    if spacing is not None:
+        _check_count(boundary, spacing, exponent)
+        return *_refined(points, facets, spacing), None
+    rule = _Rule(boundary, len(points), floor, exponent)
+    points, facets = _refined(points, facets, None, rule)
     if points.shape[1] == 3:
         return points, facets, None
     # What is narrow between the places is shown by the balls of the samples.
     tessellation, growing = delaunay(points), None
-    while len(coarse := _coarse(boundary, tessellation, facets, least)):
-        more, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
-        if not len(cut):
-            break  # floats leave no room
-        growing = growing or grown_from(tessellation)
-        growing.add(more[len(points) :])
-        points, tessellation = more, growing.tessellation()
+    with Progress("densify, samples between", rule.limit) as progress:
+        while len(coarse := _coarse(boundary, tessellation, facets, rule.least)):
+            more, facets, cut = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
+            if not len(cut):
+                break  # floats leave no room
+            growing = growing or grown_from(tessellation)
+            growing.add(more[len(points) :])
+            points, tessellation = more, growing.tessellation()
+            progress.at(len(points))
     return points, facets, preferring(tessellation, facets)
 
 
-def _check_count(boundary, spacing) -> None:
+def _check_count(boundary, spacing, exponent) -> None:
     """Raise `InputError` where the spacing asks for more vertices than a tessellation can have."""
     u = boundary[:, 1:] - boundary[:, :1]
-    with np.errstate(over="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         if boundary.shape[1] == 2:
             count = (np.linalg.norm(u[:, 0], axis=1) / spacing).sum()
         else:  # two triangles to a vertex, none larger than the equilateral one
@@ -146,41 +181,89 @@ def _check_count(boundary, spacing) -> None:
             count = area / (3**0.5 / 4) / 2
     if not count < MOST_POINTS:
         raise InputError(
-            f"spacing is {spacing:g}, which takes more than {MOST_POINTS:,} vertices; pass a larger one."
+            f"spacing is {np.ldexp(spacing, exponent):g}, which takes more than {MOST_POINTS:,} vertices; "
+            "pass a larger one."
         )
 
 
-def _widths(boundary, pieces) -> np.ndarray:
-    """The local width at some places of each piece."""
-    places = _PLACES[pieces.shape[1]] @ pieces
-    normals = np.repeat(inner_normals(pieces), places.shape[1], axis=0)
-    return local_width(boundary, places.reshape(len(normals), -1), normals).reshape(len(pieces), -1)
+class _Rule:
+    """How close samples have to be for the width, and the least width that is followed."""
+
+    def __init__(self, boundary: np.ndarray, n: int, floor: float | None, exponent: int):
+        dimension = boundary.shape[1]
+        self.boundary, self.floor, self.exponent = boundary, floor, exponent
+        self.most, self.limit = (each[dimension] + EACH[dimension] * n for each in (MOST, LIMIT))
+        self.largest = self.widths(boundary).max()
+        self.least = FLOOR[dimension] * self.largest if floor is None else floor
+        finest = _FINEST * np.abs(boundary).max()
+        if floor is not None and floor < finest:
+            self._refuse("is below the rounding of the coordinates", finest)
+
+    def widths(self, pieces: np.ndarray) -> np.ndarray:
+        """The local width at some places of each piece."""
+        places = _PLACES[pieces.shape[1]] @ pieces
+        normals = np.repeat(inner_normals(pieces), places.shape[1], axis=0)
+        return local_width(self.boundary, places.reshape(len(normals), -1), normals).reshape(len(pieces), -1)
+
+    def settle(self, n: int, longest: np.ndarray, widths: np.ndarray) -> None:
+        """Raise the floor, or refuse it, where pieces of these lengths and widths make too many samples."""
+        if n < (self.most / 4 if self.floor is None else self.limit / 8):
+            return  # the pieces are too long to tell
+
+        def wanted():
+            times = longest[:, None] / (SHARE * np.maximum(widths, self.least))
+            return n + (times**2 / 1.4 if widths.shape[1] == 4 else times).mean(axis=1).sum()
+
+        def fit(most, highest=np.inf):
+            while self.least < highest and wanted() > most:
+                self.least *= 2
+
+        if self.floor is None:
+            fit(self.most, self.largest)  # corners are given up first
+            # What is far too thin everywhere stays wrong with more samples, too.
+            fit(self.limit if wanted() < 10 * self.limit else self.most)
+            return
+        fit(self.limit)
+        if self.least > self.floor:
+            self._refuse(f"takes more than {self.limit:,} vertices", self.least)
+
+    def _refuse(self, why, least):
+        floor, least = np.ldexp([self.floor, least], self.exponent)
+        raise InputError(f"floor is {floor:g}, which {why}; pass {least:.1g} or more, or a spacing.")
 
 
-def _refined(points, facets, boundary, wanted, parts):
-    """Cut facets longer than wanted, into `parts` or as many as that takes, until none is."""
-    fresh, widths = np.arange(len(facets)), np.full(len(facets), np.nan)
-    while len(fresh):
-        pieces = points[facets[fresh]]
-        sides = np.linalg.norm(np.roll(pieces, -1, axis=1) - pieces, axis=2)
-        longest = sides.max(axis=1)
-        # What is short enough for the least width need not know its own.
-        new = np.isnan(widths[fresh]) & (longest > wanted(0.0, len(points)))
-        if boundary is not None and new.any():
-            widths[fresh[new]] = _widths(boundary, pieces[new]).min(axis=1)
-        times = longest / wanted(np.nan_to_num(widths[fresh]), len(points))
-        rows = times > 1 + 1e-9
-        coarse, times, sides = fresh[rows], times[rows], sides[rows]
-        if points.shape[1] == 3:
-            before = facets
-            points, facets, fresh = _cut_triangles(points, facets, coarse, sides.argmax(axis=1))
-            widths[(facets[: len(before)] != before).any(axis=1)] = np.nan
-        elif parts:
-            points, facets, fresh = _cut_segments(points, facets, coarse, np.full(len(coarse), parts))
-            widths[:] = np.nan
-        else:
-            return _cut_segments(points, facets, coarse, np.ceil(times - 1e-9).astype(int))[:2]
-        widths = np.append(widths, np.full(len(facets) - len(widths), np.nan))
+def _refined(points, facets, spacing, rule=None):
+    """Cut facets longer than the spacing, or than the rule says, until none is."""
+    fresh, widths = np.arange(len(facets)), np.full((len(facets), len(_PLACES[points.shape[1]])), np.nan)
+    limit = rule.limit if rule else MOST_POINTS
+    with Progress(f"densify, of {limit:,} samples at most", limit) as progress:
+        while len(fresh):
+            progress.at(len(points))
+            pieces = points[facets[fresh]]
+            sides = np.linalg.norm(np.roll(pieces, -1, axis=1) - pieces, axis=2)
+            longest = sides.max(axis=1)
+            if rule is not None:
+                # What is short enough for the least width need not know its own.
+                new = np.isnan(widths[fresh, 0]) & (longest > SHARE * rule.least)
+                if new.any():
+                    widths[fresh[new]] = rule.widths(pieces[new])
+                width = np.nan_to_num(widths[fresh])
+                rule.settle(len(points), longest, width)
+                spacing = SHARE * np.maximum(width.min(axis=1), rule.least)
+            times = longest / spacing
+            rows = times > 1 + 1e-9
+            coarse, times, sides = fresh[rows], times[rows], sides[rows]
+            if points.shape[1] == 3:
+                before = facets
+                points, facets, fresh = _cut_triangles(points, facets, coarse, sides.argmax(axis=1))
+                widths[(facets[: len(before)] != before).any(axis=1)] = np.nan
+            elif rule is not None:
+                points, facets, fresh = _cut_segments(points, facets, coarse, np.full(len(coarse), 2))
+                widths[:] = np.nan
+            else:
+                return _cut_segments(points, facets, coarse, np.ceil(times - 1e-9).astype(int))[:2]
+            more = np.full((len(facets) - len(widths), widths.shape[1]), np.nan)
+            widths = np.concatenate([widths, more])
     return points, facets
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from numbers import Real
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -144,7 +145,18 @@ def _listed(rings) -> list:
         raise InputError(
             f"there are {len(rings):,} rings, and {MOST_RINGS:,} are the most; leave small ones out."
         )
+    if _is_point(rings[0]):
+        raise InputError("rings is a list of points, not of rings; for one ring pass [ring].")
     return list(rings)
+
+
+def _is_point(ring) -> bool:
+    """Whether it is two numbers, of which no ring can be made."""
+    return (
+        isinstance(ring, (list, tuple, np.ndarray))
+        and len(ring) == 2
+        and all(isinstance(x, Real) for x in ring)
+    )
 
 
 def check_meetings(points: np.ndarray, facets: np.ndarray, place=None, doubtful=None) -> None:

@@ -94,6 +94,10 @@ class Shape(Boundary):
     points: np.ndarray
     facets: np.ndarray
 
+    def __repr__(self):
+        kind = "segments" if self.dimension == 2 else "triangles"
+        return f"Shape({self.dimension}D, {len(self.points):,} points, {len(self.facets):,} {kind})"
+
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
         self._set(points, as_indices(self.facets, "facets", len(points), points.shape[1]))
@@ -349,7 +353,9 @@ class Shape(Boundary):
             quarter of the radius of the largest ball inside that touches there.
         floor : float, optional
             Without a spacing: the smallest radius that is followed into corners, where the width goes to
-            zero; by default a two-hundredth of the largest one in 2D, a quarter of it in 3D.
+            zero; by default a two-hundredth of the largest one in 2D, a quarter of it in 3D. The default is
+            raised where it would take some 60,000 samples (in 3D 30,000): needles keep balls that are too
+            large, which `polyskel_lite.skeleton` tells.
 
         Returns
         -------
@@ -360,7 +366,7 @@ class Shape(Boundary):
         Raises
         ------
         InputError
-            If spacing or floor is not a positive length, or the spacing asks for too many vertices.
+            If spacing or floor is not a positive length, or asks for too many vertices.
 
         Examples
         --------

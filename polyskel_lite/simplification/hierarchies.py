@@ -61,6 +61,9 @@ class Hierarchy:
     kind: np.ndarray
     order: np.ndarray
 
+    def __repr__(self):
+        return f"Hierarchy({self.P.dimension}D, {self.strategy!r}, {len(self.level):,} simplices)"
+
     def __post_init__(self):
         as_instance(self.P, DelaunayShape, "P", "a DelaunayShape, and get a Hierarchy from hierarchy(P)")
         as_choice(self.strategy, "strategy", sum(STRATEGIES.values(), ()))
@@ -177,7 +180,9 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
     -----
     The smallest criterion goes first; the running maximum of the criteria popped so far is exactly the
     threshold from which on a simplex is removed when the paper's process is run to its end. Ties, such as
-    those of the systematic removals, are broken by ball radius, so the names of the points do not matter.
+    those of the systematic removals, are broken by ball radius, so the names of the points do not matter;
+    where radii are equal too, as in symmetric meshes, the simplex of the lower number goes first, and levels
+    can differ after the vertices are numbered anew.
 
     References
     ----------

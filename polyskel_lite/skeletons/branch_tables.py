@@ -6,8 +6,6 @@ import csv
 import io
 from typing import NamedTuple
 
-import numpy as np
-
 from .branches import branch_graph
 from .skeleton import Skeleton
 
@@ -48,14 +46,9 @@ def branch_rows(skeleton: Skeleton) -> list[Branch]:
     graph = branch_graph(skeleton)
     rows = []
     for a, b, data in graph.edges(data=True):
-        points, radii = skeleton.vertices[data["path"]], np.asarray(data["radii"])
-        pieces = np.linalg.norm(np.diff(points, axis=0), axis=1)
-        mean = float(radii.mean())
-        if pieces.sum() > 0:
-            mean = float((pieces * (radii[1:] + radii[:-1]) / 2).sum() / pieces.sum())
         ends = (f"{graph.nodes[node]['kind']} {node}" for node in (a, b))
-        lengths = data["length"], data["smooth_length"]
-        rows.append(Branch(*ends, *lengths, mean, float(radii.min()), float(radii.max())))
+        numbers = (data[name] for name in ("length", "smooth_length", "mean_radius"))
+        rows.append(Branch(*ends, *numbers, min(data["radii"]), max(data["radii"])))
     return sorted(rows, key=lambda row: (-row.length, row))
 
 

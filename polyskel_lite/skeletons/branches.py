@@ -30,7 +30,8 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     networkx.MultiGraph
         Nodes: skeleton vertices that are ends or junctions, with ``kind`` ("end", "junction", "sheet",
         "loop", "point"), ``pos`` and ``radius`` (sheets: ``vertices`` instead). Edges: one a branch, with
-        ``path`` (vertex numbers), ``length``, ``smooth_length`` (see `smooth_lengths`), ``radii`` along it.
+        ``path`` (vertex numbers), ``length``, ``smooth_length`` (see `smooth_lengths`), ``radii`` along it,
+        and ``mean_radius``, the mean of these by length.
         ``graph.graph["branches"]`` is the number of ends, which is what the paper counts.
 
     Examples
@@ -92,12 +93,18 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     paths = [path for _, _, path in graph.edges(data="path")]
     places = np.concatenate([np.zeros(0, dtype=np.intp), *paths]).astype(np.intp)
     points, radii = skeleton.vertices[places], skeleton.radii[places]
-    smooth = smooth_lengths(points, radii, [len(path) for path in paths]).tolist()
-    pieces, radii = np.linalg.norm(np.diff(points, axis=0), axis=1), radii.tolist()
-    end = 0
+    # Lengths of any unit are ordinary floats in this one; a power of two changes no digit.
+    exponent = int(np.frexp(max(np.abs(points).max(initial=0.0), radii.max(initial=0.0)))[1])
+    points, radii = np.ldexp(points, -exponent), np.ldexp(radii, -exponent)
+    smooth = smooth_lengths(points, radii, [len(path) for path in paths])
+    pieces, end = np.linalg.norm(np.diff(points, axis=0), axis=1), 0
     for (_, _, data), length in zip(graph.edges(data=True), smooth, strict=True):
         at, end = end, end + len(data["path"])
-        data |= {"length": float(pieces[at : end - 1].sum()), "radii": radii[at:end], "smooth_length": length}
+        raw, r = pieces[at : end - 1], radii[at:end]
+        mean = (raw * (r[1:] + r[:-1]) / 2).sum() / raw.sum() if raw.sum() > 0 else r.mean()
+        numbers = np.ldexp([raw.sum(), length, mean], exponent).tolist()
+        data |= dict(zip(("length", "smooth_length", "mean_radius"), numbers, strict=True))
+        data["radii"] = np.ldexp(r, exponent).tolist()
     graph.graph["branches"] = sum(kind == "end" for _, kind in graph.nodes(data="kind"))
     return graph
 

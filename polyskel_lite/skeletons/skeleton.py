@@ -67,6 +67,11 @@ class Skeleton:
     #: `Polyball`, which puts itself here: its skeleton is a Skeleton, so the rooms cannot both import.
     _polyball: ClassVar[Callable[..., Any]]
 
+    def __repr__(self):
+        also = [f"{len(some):,} {name}" for name in ("polygons", "rays") if len(some := getattr(self, name))]
+        counts = [f"{len(self.vertices):,} vertices", f"{len(self.edges):,} edges", *also]
+        return f"Skeleton({self.dimension}D, {', '.join(counts)})"
+
     def __post_init__(self):
         self._check()
         # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
@@ -132,7 +137,7 @@ class Skeleton:
         >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).lengths().round(3).tolist()
         [0.559]
         """
-        return np.linalg.norm(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
+        return np.hypot.reduce(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
 
     def length(self) -> float:
         """Total length of the edges (rays not counted).

@@ -268,7 +268,7 @@ def test_a_working_copy_runs_from_top_to_bottom(visit, lab, book, name):
     assert [o for cell in code for o in cell["outputs"] if o["output_type"] == "error"] == []
     assert page.locator(".jp-RenderedMarkdown", has_text=re.compile(r"\{\w+(:\w+)?\}`")).count() == 0
     assert sources == {path: path.read_bytes() for path in sources}
-    # JupyterLab has words of its own, about the kernel of the browser site, which only tests install beside it.
+    # JupyterLab has words of its own, about the kernel of the browser site that tests install beside it.
     ours = re.compile("psl|anywidget|widget|mathjax|traceback", re.IGNORECASE)
     assert [text for text in opened.complaints if ours.search(text)] == []
     assert opened.outside() == []

@@ -133,3 +133,11 @@ def test_unknown_names():
         psl.conform(shape, to="voronoi")
     with pytest.raises(psl.InputError, match="'inner' or 'outer'"):
         psl.sk0(shape, side="left")
+
+
+def test_a_needle_is_called_one():
+    """Nothing has to be merged there, and no other origin would help."""
+    with pytest.raises(
+        psl.TessellationError, match=r"sides at vertex 0 enclose 1e-12 radians.* Cut the tip off"
+    ):
+        psl.conform(psl.Shape.from_rings([[(0, 0), (1, 0), (1, 1e-12)]]).densify())

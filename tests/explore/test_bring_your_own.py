@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from PIL import Image
+from truth.meshes import capsule, cube
 
 import polyskel_lite as psl
 from polyskel_lite import explore, implicit
@@ -53,8 +54,33 @@ def test_added_samples_are_told():
     )
     assert sentence in own._status.value
     assert sentence in own.stand_in()
-    fine = explore.explore(psl.datasets.load("gear"))
-    assert "more" not in fine._status.value
+    assert "No ball is more than 1.003 times" in own._status.value
+    fine = explore.explore(psl.Shape.from_mesh(*capsule(16.0, 24, 60, 8)))
+    assert (
+        "vertices, Betti numbers (1, 0, 0). Other edges put its boundary into the Delaunay tessellation."
+        in (fine._status.value)
+    )
+
+
+def test_a_shape_is_refined_as_in_one_call():
+    """Outlines of any number of vertices, and solids: a box by its corners has its axis."""
+    outline = psl.datasets.load("gear")
+    assert (bring_your_own.chain(outline).refined.points == psl.skeleton(outline).refined.points).all()
+    box = psl.Shape.from_mesh(*cube())
+    own = explore.explore(box)
+    assert [bones.quality.ratio < 1.05 for bones in own.chain.bones] == [True, True]
+    assert own.hierarchy.skeleton(np.pi / 3).radii.max() == pytest.approx(0.5, rel=0.02)
+    assert (own.chain.refined.points == psl.skeleton(box).refined.points).all()
+
+
+def test_what_takes_long_or_stays_wrong_is_told(monkeypatch):
+    told = []
+    monkeypatch.setitem(bring_your_own.MANY_VERTICES, 2, 100)
+    bring_your_own.chain(psl.datasets.load("gear"), told.append)
+    assert told == ["shape: 500 vertices. Samples are added where it is narrow; this takes some seconds."]
+    thin = explore.explore(psl.Shape.from_rings([[(0, 0), (1, 0), (1, 1e-9), (0, 1e-9)]]))
+    assert "But the samples are too coarse" in thin._status.value
+    assert "1e-09 wide there, too thin for its size: widen it" in thin._status.value
 
 
 WHEN = datetime(1997, 9, 1, tzinfo=UTC)

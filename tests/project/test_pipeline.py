@@ -38,6 +38,15 @@ def test_without_samples_it_is_told():
         psl.skeleton(psl.datasets.load("gear"), densify=False)
 
 
+def test_what_is_too_thin_is_told_with_what_to_do():
+    bar = [[(0, 0), (1, 0), (1, 1e-4), (0, 1e-4)]]
+    with pytest.warns(psl.CoarseSamplingWarning, match=r"densify\(1e-05\) adds the .* samples") as told:
+        psl.skeleton(bar)
+    assert told[0].filename == __file__
+    with pytest.warns(psl.CoarseSamplingWarning, match=r"it is 1e-08 wide there, too thin for its size"):
+        psl.skeleton([[(0, 0), (1, 0), (1, 1e-8), (0, 1e-8)]])
+
+
 def test_files_and_refusals(tmp_path):
     file = tmp_path / "plan.geojson"
     file.write_text('{"type": "Polygon", "coordinates": [[[0, 0], [8, 0], [8, 2], [0, 2], [0, 0]]]}')
@@ -94,3 +103,24 @@ def test_a_fine_mesh_keeps_its_samples_and_a_straight_bar_its_length():
     (wire,) = bones.branches
     assert wire.smooth_length == pytest.approx(16, rel=0.01)
     assert wire.mean_radius == pytest.approx(1, rel=0.02)
+
+
+def test_what_is_printed_is_one_short_line():
+    bones = psl.skeleton([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    voronoi, P = psl.voronoi([(0, 0), (2, 0), (0, 2)]), bones.hierarchy.P
+    assert repr(bones.given) == "Shape(2D, 4 points, 4 segments)"
+    assert repr(voronoi) == "Skeleton(2D, 1 vertices, 0 edges, 3 rays)"
+    assert repr(voronoi.tessellation) == "Tessellation(2D, 3 points, 1 triangles)"
+    assert repr(voronoi.balls()) == "Polyball(2D, 1 balls)"
+    assert repr(P) == f"DelaunayShape({P.inner.sum()} inner simplices of {P.tessellation})"
+    assert repr(bones.hierarchy) == f"Hierarchy(2D, 'branch', {P.inner.sum()} simplices)"
+    assert repr(bones) == f"Bones({bones.skeleton} at 3, 'branch')"
+    assert len(repr(bones)) < 100
+
+
+@pytest.mark.parametrize("kind", [list, tuple, np.array, lambda ring: list(map(list, ring))])
+def test_one_ring_alone_is_told_to_go_into_a_list(kind):
+    ring = kind([(0, 0), (1, 0), (0, 1.5)])
+    for taker in (psl.skeleton, psl.Shape.from_rings):
+        with pytest.raises(psl.InputError, match=r"list of points, not of rings; for one ring pass \[ring\]"):
+            taker(ring)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import tempfile
 from base64 import b64encode
+from collections.abc import Callable
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -12,10 +13,10 @@ from pathlib import Path
 import ipywidgets
 import numpy as np
 
-from ...containment import conform, delaunay_shape
 from ...errors import InputError, PolyskelError
+from ...pipeline import Bones, refined_bones
 from ...shapes import Shape
-from ...simplification import STRATEGIES, Hierarchy, hierarchy
+from ...simplification import STRATEGIES, Hierarchy
 from ...skeletons import branch_rows
 from ..skeleton_viewer import SkeletonViewer, viewer
 from .explorer import NEEDS_KERNEL, WithStandIn
@@ -27,8 +28,8 @@ SUFFIXES = (".png", ".jpg", ".jpeg", ".svg", ".geojson", ".json", ".stl", ".ply"
 MOST_BYTES = 8_000_000
 #: Vertices, in the plane and in space: more take more than seconds, and are for a script.
 MOST_VERTICES = {2: 20_000, 3: 20_000}
-#: Outlines of fewer vertices, such as plans and parcels, get samples where they are narrow (`Shape.densify`).
-FEW_VERTICES = 300
+#: Shapes of more vertices take some seconds: it is said before.
+MANY_VERTICES = {2: 4_000, 3: 1_000}
 #: Where the slider stands at first, in radians: noise is gone, what a reader would call a branch is there.
 FIRST_THRESHOLD = {2: np.pi, 3: np.pi / 3}
 
@@ -51,23 +52,37 @@ class Chain:
     ----------
     name : str
     given, refined : Shape
-        As it came, and refined until its boundary is in the Gabriel graph (3D: in Del(E)).
+        As it came, and with samples where it is narrow, its boundary in the Gabriel graph (3D: in Del(E)).
     hierarchies : tuple of Hierarchy
         One in the plane; in space those of the strategies "surface" and "wireframe".
+    bones : list of Bones
+        What `polyskel_lite.skeleton` finds, by the same strategies.
     """
 
     name: str
-    given: Shape
-    refined: Shape
-    hierarchies: tuple[Hierarchy, ...]
+    bones: list[Bones]
+
+    @property
+    def given(self) -> Shape:
+        return self.bones[0].given
+
+    @property
+    def refined(self) -> Shape:
+        return self.bones[0].refined
+
+    @property
+    def hierarchies(self) -> tuple[Hierarchy, ...]:
+        return tuple(bones.hierarchy for bones in self.bones)
 
 
-def chain(source: Shape | str | PathLike, **options) -> Chain:
-    """Go the whole way: load, refine, Delaunay shape, hierarchy (sections 3.4, 3.5 and 4).
+def chain(source: Shape | str | PathLike, say: Callable[[str], None] | None = None, **options) -> Chain:
+    """Go the whole way: load, densify, refine, Delaunay shape, hierarchy (sections 3.4, 3.5 and 4).
 
     Parameters
     ----------
     source : Shape or path
+    say : callable, optional
+        Told of a shape that takes some seconds, in a sentence.
     **options
         For files: those of `polyskel_lite.files.read_file`, such as ``smooth`` or ``invert``.
 
@@ -85,9 +100,9 @@ def chain(source: Shape | str | PathLike, **options) -> Chain:
     Examples
     --------
     >>> import polyskel_lite as psl
-    >>> way = chain(psl.datasets.load("lake"))
+    >>> way = chain(psl.datasets.load("gear"))
     >>> len(way.given.points), len(way.refined.points), way.hierarchies[0].strategy
-    (1000, 1000, 'branch')
+    (500, 2267, 'branch')
     """
     if isinstance(source, Shape):
         shape, name = source, "shape"
@@ -102,11 +117,9 @@ def chain(source: Shape | str | PathLike, **options) -> Chain:
             f"{name} has {count:,} vertices; up to {most:,} are quick enough to explore. {advice}, or use "
             "polyskel_lite.hierarchy in a script, which has no limit."
         )
-    few = shape.dimension == 2 and count < FEW_VERTICES
-    refined = conform(shape.densify() if few else shape)
-    P = delaunay_shape(refined)
-    found = tuple(hierarchy(P, strategy) for strategy in STRATEGIES[shape.dimension])
-    return Chain(name, shape, refined, found)
+    if say is not None and count > MANY_VERTICES[shape.dimension]:
+        say(f"{name}: {count:,} vertices. Samples are added where it is narrow; this takes some seconds.")
+    return Chain(name, refined_bones(shape, STRATEGIES[shape.dimension]))
 
 
 def chain_text(way: Chain) -> str:
@@ -115,20 +128,29 @@ def chain_text(way: Chain) -> str:
     Examples
     --------
     >>> import polyskel_lite as psl
-    >>> chain_text(chain(psl.datasets.load("gear")))
-    'shape: 500 vertices, Betti numbers (1, 1). Its boundary is in the Gabriel graph as it is.'
+    >>> text = chain_text(chain(psl.Shape.from_rings([[(0, 0), (4, 0), (4, 2), (0, 2)]])))
+    >>> print(text.replace(". ", ".\\n"))
+    shape: 4 vertices, Betti numbers (1, 0).
+    300 more make it dense enough and put its boundary into the Gabriel graph.
+    No ball is more than 1.008 times as large as the room around its centre.
     """
     given, added = way.given, len(way.refined.points) - len(way.given.points)
     graph = "Gabriel graph" if given.dimension == 2 else "Delaunay tessellation"
     if added:
-        few = given.dimension == 2 and len(given.points) < FEW_VERTICES
-        why = "make it dense enough and put" if few else "put"
+        why = "make it dense enough and put" if way.bones[0].densified else "put"
         refined = f"{added} more {why} its boundary into the {graph}."
     elif way.refined is given:
         refined = f"Its boundary is in the {graph} as it is."
     else:
         refined = f"Other edges put its boundary into the {graph}."
-    return f"{way.name}: {len(given.points)} vertices, Betti numbers {given.betti()}. {refined}"
+    worst = max(way.bones, key=lambda bones: bones.quality.ratio)
+    told = worst.warning()
+    told = (
+        f"But {told}"
+        if told
+        else (f"No ball is more than {worst.quality.ratio:.3f} times as large as the room around its centre.")
+    )
+    return f"{way.name}: {len(given.points)} vertices, Betti numbers {given.betti()}. {refined} {told}"
 
 
 class Explore(WithStandIn):
@@ -197,7 +219,7 @@ class Explore(WithStandIn):
         self.chain, self.error, self.picture = None, None, None
         self._links.value, self._place.children = "", ()  # no picture of the last shape under the next name
         try:
-            way = self.chain = chain(source, **options)
+            way = self.chain = chain(source, self._say, **options)
         except PolyskelError as error:
             self.error = error
             self._say(str(error), alert=True)
