@@ -25,5 +25,5 @@ from .spatial import draw_facets_3d, draw_lines_3d, draw_mesh, draw_samples_3d
 from .spatial_balls import draw_polyball_3d
 from .spatial_graphs import OPPOSITE, draw_tessellation_3d, draw_voronoi_3d
 from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d
-from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, kind_of, legend, setup
-from .view import VIEW, axes_3d, focus, focus_3d, inset, panels
+from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, kind_of, legend, page_width, say, setup
+from .view import VIEW, axes_3d, fill_panel, focus, focus_3d, inset, panels
