@@ -27,6 +27,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..errors import InputError
+from .pages import show_in_notebooks
 
 #: Width of the book's text column, in inches: every figure is made for it, so that nothing is rescaled.
 TEXT_WIDTH = 7.0
@@ -141,6 +142,8 @@ def kind_of(name: str) -> Kind:
 def setup() -> None:
     """Set matplotlib to the style of the book: fonts, sizes, resolution. Call it once, first in a notebook.
 
+    In a notebook figures are then shown by `polyskel_lite.drawing.picture`: sharp on every screen.
+
     Examples
     --------
     >>> import matplotlib.pyplot as plt
@@ -151,6 +154,7 @@ def setup() -> None:
     9.0
     """
     plt.rcParams.update(RC)
+    show_in_notebooks()
 
 
 @contextmanager

@@ -135,7 +135,8 @@ def fill_panel(ax: Axes, points, share: float = 0.96) -> Axes:
     Parameters
     ----------
     ax : Axes
-        Three-dimensional. It becomes a square larger than its place, with the points in the middle of it.
+        Three-dimensional, with all that it shows. It becomes a square, moved so that the points are in the
+        middle of its old place.
     points : (n, 3) array
     share : float
         Of the width or the height of the place, whichever is filled first.
@@ -154,7 +155,7 @@ def fill_panel(ax: Axes, points, share: float = 0.96) -> Axes:
     """
     size = ax.figure.get_size_inches()
     place = ax.get_position(original=True).get_points() * size
-    middle, side = place.mean(axis=0), 1.6 * (place[1] - place[0]).max()  # it cuts off what is outside
+    middle, side = place.mean(axis=0), (place[1] - place[0]).min()
     ax.set_position([*((middle - side / 2) / size), *(side / size)])
     box = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
     zoom = 1.0
@@ -164,6 +165,8 @@ def fill_panel(ax: Axes, points, share: float = 0.96) -> Axes:
         zoom *= share * ((place[1] - place[0]) / (high - low)).min()
     corner = middle - side / 2 + middle - (low + high) / 2
     ax.set_position([*(corner / size), *(side / size)])
+    for artist in ax.get_children():
+        artist.set_clip_on(False)  # the place may be longer than the square
     return ax
 
 

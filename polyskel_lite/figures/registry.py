@@ -19,8 +19,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from .. import datasets
-from ..drawing import RC, page_width
-from ..drawing.style import page_share, thin
+from ..drawing import RC, page_share, page_width, thin
 from ..errors import InputError
 
 #: Every figure function by name, in the paper's order: ``"figure_1"``, ``"figure_2"``, ``"figure_2_3d"`` ...
