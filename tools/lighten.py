@@ -27,6 +27,7 @@ ICONS = re.compile(r'\s*<script defer src="[^"]*scripts/fontawesome\.js[^"]*"></
 SEARCH = re.compile(
     r'\s*<script src="(?:_static/(?:searchtools|language_data)|searchindex)\.js[^"]*"></script>'
 )
+TABS = re.compile(r'\s*<script [^>]*\bsrc="_static/design-tabs\.js[^"]*"></script>')
 PICTURE = re.compile(r'<img (?![^>]*\bloading=)(?P<rest>[^>]*?\bsrc="(?P<file>_images/[^"]+)"[^>]*)>')
 IN_PAGE = re.compile(r"data:image/png;base64,(?P<data>[A-Za-z0-9+/=]{2000,})")
 SHEET = re.compile(r'href="(?P<file>_static/[^"?]+?)(?:\.light)?\.css(?:\?[^"]*)?"')
@@ -114,6 +115,10 @@ def light(page: str, book: Path, plain: set[str] = frozenset()) -> str:
         page = ICONS.sub("", page)
     if 'id="search-results"' not in page:
         page = SEARCH.sub("", page)
+    if "sd-tab-" not in TABS.sub("", page):
+        page = TABS.sub("", page)
+    # A formula wider than a phone can be scrolled, also by keys; the menu of MathJax had seen to that.
+    page = page.replace('<div class="math ', '<div tabindex="0" class="math ')
     page = page.replace("_static/mathjax/tex-chtml.js", "_static/mathjax/startup.js")
     page = SHEET.sub(r'href="\g<file>.light.css"', page)
     return PICTURE.sub(picture, DATA.sub(data, IN_PAGE.sub(picture_in_page, page)))

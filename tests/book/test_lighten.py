@@ -31,6 +31,7 @@ const shown = 1;
 <button><span class="fa-solid fa-bars"></span></button>
 <img alt="a" src="_images/a.png" /> <img alt="b" src="_images/b.svg" style="width: 85%;" />
 <div class="highlight"><pre><span class="k">for</span> <span class="n">x</span></pre></div>
+<div class="math notranslate">x</div>
 <div class="psl-viewer"><script type="application/json">DATA</script>
 <img src="data:image/png;base64,INPAGE"></div></body></html>"""
 
@@ -129,6 +130,7 @@ def test_the_index_of_words_comes_with_the_page_that_searches(tool, book, page):
 
 def test_mathjax_comes_without_its_menu(page):
     assert 'src="_static/mathjax/startup.js"' in page
+    assert '<div tabindex="0" class="math notranslate">' in page
 
 
 def test_rules_for_what_is_on_no_page_are_gone(page, book):
