@@ -61,7 +61,7 @@ lite: book $(VENV)/.lite  ## build a site in which the chapters run in the brows
 	@$(BIN)/python tools/build_lite.py --output _build/lite
 	@echo "The site is ready, for a web server. To try it: $(BIN)/python -m http.server --directory _build/lite"
 
-figures: $(VENV)/.lab  ## write the paper's figures (PDF, SVG, PNG) to figures/
+figures: $(VENV)/.lab  ## write the paper's figures (PDF, SVG, PNG; two widths) and a manifest to figures/
 	@echo "Drawing the paper's figures into figures/ ..."
 	@$(BIN)/python -m polyskel_lite.figures figures/
 

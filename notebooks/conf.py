@@ -74,6 +74,8 @@ nb_mime_priority_overrides = [
     ("html", "text/html", 0),
 ]
 nb_ipywidgets_js = {}
+# Formulas as text, and as MathML for who cannot see them; without the menu that most of MathJax is for.
+mathjax3_config = {"loader": {"load": ["input/tex", "output/chtml", "a11y/assistive-mml"]}}
 BUNDLE = ROOT / "polyskel_lite" / "explore" / "skeleton_viewer" / "bundle.py"
 VIEWER = runpy.run_path(str(BUNDLE))["one_module"]()  # by its path: the book needs no library to be built
 
@@ -129,6 +131,12 @@ def draw_the_house(app, docname, source):
             source[0] = source[0].replace(f"```{{psl-house-{name}}}\n```", drawn)
 
 
+def make_light(app, error):
+    """What a page does not show is not fetched with it (see tools/lighten.py)."""
+    if error is None and app.builder.name == "html":
+        runpy.run_path(str(ROOT / "tools" / "lighten.py"))["lighten"](Path(app.outdir))
+
+
 def setup(app):
     app.connect("source-read", draw_the_house)
     app.connect("env-get-outdated", lambda *_: ["house"])  # its code may have changed though the page has not
@@ -136,3 +144,4 @@ def setup(app):
     app.connect("html-page-context", references_as_list)
     app.connect("html-page-context", link_claims_to_cells)
     app.connect("html-page-context", add_viewer)
+    app.connect("build-finished", make_light, priority=900)  # after all who copy files

@@ -21,10 +21,25 @@ from .counts import draw_branch_counts
 from .graphs import draw_delaunay, draw_gabriel, draw_skeleton, draw_voronoi
 from .light import LIGHT, normals_of, shades, view_direction
 from .lines import box_of, chains, clip_segments, ray_segments
+from .pages import picture
 from .planar import draw_lines, draw_samples, draw_shape
 from .spatial import draw_facets_3d, draw_lines_3d, draw_mesh, draw_samples_3d
 from .spatial_balls import draw_polyball_3d
 from .spatial_graphs import OPPOSITE, draw_tessellation_3d, draw_voronoi_3d
 from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d
-from .style import KINDS, RC, TEXT_WIDTH, Kind, axes, handle, kind_of, legend, setup
-from .view import VIEW, axes_3d, focus, focus_3d, inset, panels
+from .style import (
+    KINDS,
+    RC,
+    TEXT_WIDTH,
+    Kind,
+    axes,
+    handle,
+    kind_of,
+    legend,
+    page_share,
+    page_width,
+    say,
+    setup,
+    thin,
+)
+from .view import VIEW, axes_3d, fill_panel, focus, focus_3d, inset, panels

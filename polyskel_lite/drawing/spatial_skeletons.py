@@ -62,6 +62,7 @@ def draw_glass(ax: Axes, mesh, alpha: float = 0.10, color: str = "#6E7B85") -> A
         faces = Poly3DCollection(
             corners[layer], facecolors=rgba[layer], edgecolors="none", zorder=zorder, antialiaseds=False
         )
+        faces.set_rasterized(True)  # in a file of lines thousands of clear triangles are lighter as a picture
         ax.add_collection3d(faces)
     return focus_3d(ax, points[np.unique(facets)])
 

@@ -13,6 +13,9 @@ colorblind people", 2008.
 from __future__ import annotations
 
 import string
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -24,9 +27,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ..errors import InputError
+from .pages import show_in_notebooks
 
 #: Width of the book's text column, in inches: every figure is made for it, so that nothing is rescaled.
 TEXT_WIDTH = 7.0
+
+#: Width of pictures as they are made now, in inches (see `page_width`).
+_WIDTH = ContextVar("width", default=TEXT_WIDTH)
 
 #: Settings of matplotlib for all pictures of the book (see `setup`).
 RC = {
@@ -36,11 +43,11 @@ RC = {
     "savefig.pad_inches": 0.02,
     "font.family": "DejaVu Sans",
     "font.size": 9,
-    "axes.titlesize": 9,
-    "axes.labelsize": 9,
+    "axes.titlesize": "medium",
+    "axes.labelsize": "medium",
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "legend.fontsize": 9,
+    "legend.fontsize": "medium",
     "legend.frameon": False,
     "legend.handlelength": 2.8,
     "lines.dash_capstyle": "butt",
@@ -135,6 +142,8 @@ def kind_of(name: str) -> Kind:
 def setup() -> None:
     """Set matplotlib to the style of the book: fonts, sizes, resolution. Call it once, first in a notebook.
 
+    In a notebook figures are then shown by `polyskel_lite.drawing.picture`: sharp on every screen.
+
     Examples
     --------
     >>> import matplotlib.pyplot as plt
@@ -145,6 +154,73 @@ def setup() -> None:
     9.0
     """
     plt.rcParams.update(RC)
+    show_in_notebooks()
+
+
+@contextmanager
+def page_width(inches: float) -> Iterator[float]:
+    """Make figures for another page: all that `axes` and `panels` are told in inches is scaled to it.
+
+    Letters are not scaled with it: they get 7 points where a page is narrow, else 9. Lines keep their widths
+    until `thin` is asked to change them.
+
+    Parameters
+    ----------
+    inches : float
+        What is `TEXT_WIDTH` otherwise.
+
+    Yields
+    ------
+    float
+        By how much a picture is smaller than in the book.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> with drawing.page_width(3.5) as share:
+    ...     fig, ax = drawing.axes()
+    >>> share, fig.get_size_inches().tolist()[0]
+    (0.5, 3.5)
+    >>> plt.close(fig)
+    """
+    token = _WIDTH.set(inches)
+    try:
+        with plt.rc_context({"font.size": 9 if inches > 5 else 7}):
+            yield page_share()
+    finally:
+        _WIDTH.reset(token)
+
+
+def page_share() -> float:
+    """Width of the page that figures are made for now, as a share of the book's.
+
+    Examples
+    --------
+    >>> page_share()
+    1.0
+    """
+    return _WIDTH.get() / TEXT_WIDTH
+
+
+def thin(figure: Figure, share: float) -> Figure:
+    """Scale the widths of all lines and the sizes of all dots of a figure; letters stay as they are.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, ax = drawing.axes()
+    >>> line, = ax.plot([0, 1], [0, 1], linewidth=3)
+    >>> thin(fig, 0.5) is fig, line.get_linewidth()
+    (True, 1.5)
+    >>> plt.close(fig)
+    """
+    for artist in dict.fromkeys(figure.findobj(lambda a: hasattr(a, "set_linewidth"))):
+        artist.set_linewidth(share * np.asarray(artist.get_linewidth()))
+        if hasattr(artist, "set_markersize"):
+            artist.set_markersize(share * artist.get_markersize())
+    return figure
 
 
 def axes(
@@ -153,6 +229,7 @@ def axes(
     height: float | None = None,
     width: float = TEXT_WIDTH,
     letters: bool = False,
+    under: float = 0.3,
 ) -> tuple[Figure, Axes | np.ndarray]:
     """Make a figure of the book's width with one or more empty axes: equal scales, no frame.
 
@@ -166,6 +243,8 @@ def axes(
         Width of the whole figure in inches.
     letters : bool
         Write (a), (b), ... over the panels, in reading order.
+    under : float
+        Room for a legend under the lowest row, in inches.
 
     Returns
     -------
@@ -182,10 +261,13 @@ def axes(
     >>> plt.close(fig)
     """
     height = 0.75 * width / ncols * nrows if height is None else height
-    fig = plt.figure(figsize=(width, height), layout="none")
+    over = 0.2 if letters else 0.04  # inches, for a letter
+    # On a narrower page panels are smaller, but a line of letters is not.
+    share = page_share() * ((height - under) / nrows - over) + over
+    under *= 1.4 if page_share() < 0.7 else 1.0  # where a legend may be in two lines
+    width, height = page_share() * width, nrows * share + under
     # By hand: matplotlib's layout engines move axes of equal scales a little each time the figure is drawn.
-    over, under = (0.2 if letters else 0.04), 0.3  # inches, for a letter and for a legend
-    share = (height - under) / nrows
+    fig = plt.figure(figsize=(width, height), layout="none")
     room = {"left": 0.0, "right": 1.0, "bottom": under / height, "top": 1 - over / height}
     gaps = {"wspace": 0.04, "hspace": over / (share - over)}
     flat = fig.subplots(nrows, ncols, squeeze=False, gridspec_kw=room | gaps).ravel()
@@ -194,8 +276,25 @@ def axes(
         ax.set_axis_off()
         ax.margins(0.03)
         if letters:
-            ax.set_title(f"({letter})", loc="left", fontsize=9, pad=2)
+            ax.set_title(f"({letter})", loc="left", pad=2)
     return fig, flat if flat.size > 1 else flat[0]
+
+
+def say(ax: Axes, words: str, **style) -> Axes:
+    """Write a few words over a panel, beside its letter.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, ax = drawing.axes(letters=True)
+    >>> drawing.say(ax, "50 samples").texts[0].get_text()
+    '50 samples'
+    >>> plt.close(fig)
+    """
+    shift = (2.2 * plt.rcParams["font.size"], 2)
+    ax.annotate(words, (0, 1), shift, "axes fraction", "offset points", va="baseline", **style)
+    return ax
 
 
 def handle(name: str, label: str | None = None) -> Line2D | Patch:
@@ -248,7 +347,9 @@ def legend(ax: Axes, *kinds: str | Artist, labels: dict[str, str] | None = None,
     """
     labels = labels or {}
     handles = [handle(k, labels.get(k)) if isinstance(k, str) else k for k in kinds]
-    below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": len(kinds)}
+    # On a narrow page four names do not fit side by side.
+    columns = 2 if len(kinds) > 3 and page_share() < 0.7 else len(kinds)
+    below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "ncols": columns}
     options = style if "loc" in style else below | style
     ax.legend(handles=handles, **options)
     return ax

@@ -13,9 +13,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d import proj3d
 
 from .lines import box_of
-from .style import TEXT_WIDTH
+from .style import TEXT_WIDTH, page_share
 
 #: Where the camera of every 3D picture stands: elevation and azimuth, in degrees.
 VIEW = {"elev": 22.0, "azim": -52.0}
@@ -44,7 +45,8 @@ def axes_3d(
     height = 0.95 * width / ncols * nrows if height is None else height
     fig, axs = panels([3] * (nrows * ncols), nrows, height, width)
     for letter, ax in zip(string.ascii_lowercase if letters else "", axs, strict=False):
-        ax.text2D(0.02, 0.98, f"({letter})", transform=ax.transAxes, va="top")
+        place = ax.get_position()  # not of the axes, which may be moved
+        ax.text2D(place.x0 + 0.005, place.y1 - 0.015, f"({letter})", transform=fig.transFigure, va="top")
     return fig, axs if axs.size > 1 else axs[0]
 
 
@@ -80,7 +82,8 @@ def panels(
     >>> plt.close(fig)
     """
     # 3D axes ask the layout engine for no room; they are set side by side by hand.
-    fig, ncols = plt.figure(figsize=(width, height), layout="none"), len(dimensions) // nrows
+    size = (page_share() * width, page_share() * height)
+    fig, ncols = plt.figure(figsize=size, layout="none"), len(dimensions) // nrows
     axs = np.empty(len(dimensions), dtype=object)
     for k, dimension in enumerate(dimensions):
         row, column = divmod(k, ncols)
@@ -88,6 +91,7 @@ def panels(
         if dimension == 3:
             axs[k] = fig.add_axes(place, projection="3d", computed_zorder=False)
             axs[k].view_init(**VIEW | view)
+            axs[k].patch.set_visible(False)  # a panel that has been moved must not cover its neighbour
         else:
             axs[k] = fig.add_axes(place, aspect="equal")
         axs[k].set_axis_off()
@@ -121,6 +125,57 @@ def focus_3d(ax: Axes, *things, margin: float = 0.0, zoom: float = 1.25) -> Axes
         getattr(ax, f"set_{name}lim")(a, b)
     ax.set_box_aspect(high - low, zoom=zoom)
     return ax
+
+
+def fill_panel(ax: Axes, points, share: float = 0.96) -> Axes:
+    """Move and enlarge what a 3D axes shows until some points fill the place that the axes has in its figure.
+
+    Point the camera and set the limits (`focus_3d`) first.
+
+    Parameters
+    ----------
+    ax : Axes
+        Three-dimensional, with all that it shows. It becomes a square, moved so that the points are in the
+        middle of its old place.
+    points : (n, 3) array
+    share : float
+        Of the width or the height of the place, whichever is filled first.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from polyskel_lite import drawing
+    >>> fig, ax = drawing.axes_3d()
+    >>> corners = [(0, 0, 0), (1, 2, 3), (4, 0, 1)]
+    >>> ax = drawing.fill_panel(drawing.focus_3d(ax, corners), corners, share=0.9)
+    >>> low, high = seen_between(ax, corners)
+    >>> round(float(((high - low) / fig.get_size_inches()).max()), 2)
+    0.9
+    >>> plt.close(fig)
+    """
+    size = ax.figure.get_size_inches()
+    place = ax.get_position(original=True).get_points() * size
+    middle, side = place.mean(axis=0), (place[1] - place[0]).min()
+    ax.set_position([*((middle - side / 2) / size), *(side / size)])
+    box = np.ptp([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()], axis=1)
+    zoom = 1.0
+    for _ in range(4):  # what is nearer grows faster, so that once is not enough
+        ax.set_box_aspect(box, zoom=zoom)
+        low, high = seen_between(ax, points)
+        zoom *= share * ((place[1] - place[0]) / (high - low)).min()
+    corner = middle - side / 2 + middle - (low + high) / 2
+    ax.set_position([*(corner / size), *(side / size)])
+    for artist in ax.get_children():
+        artist.set_clip_on(False)  # the place may be longer than the square
+    return ax
+
+
+def seen_between(ax: Axes, points) -> tuple[np.ndarray, np.ndarray]:
+    """Lower left and upper right corner of points as a 3D axes shows them, in inches of its figure."""
+    ax.apply_aspect()
+    x, y, _ = proj3d.proj_transform(*np.asarray(points, dtype=float).T, ax.get_proj())
+    seen = ax.transData.transform(np.column_stack([x, y])) / ax.figure.dpi
+    return seen.min(axis=0), seen.max(axis=0)
 
 
 def focus(ax: Axes, *things, margin: float = 0.05) -> Axes:

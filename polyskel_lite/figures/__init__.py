@@ -1,7 +1,8 @@
 """The paper's figures, each one function: data in, figure out.
 
 Called without data each function takes a shape of `polyskel_lite.datasets`; caption and alt text are its
-attributes. ``python -m polyskel_lite.figures FOLDER`` writes them all as PDF, SVG and PNG.
+attributes. ``python -m polyskel_lite.figures FOLDER`` writes them all as PDF, SVG and PNG, as wide as one
+column of a journal and as wide as two, with a list of what each was made from.
 
 Examples
 --------
@@ -16,11 +17,11 @@ Examples
 """
 
 from .definitions import figure_1, figure_2, figure_2_3d
-from .methods import figure_3, figure_4, figure_5, regular_shape
+from .methods import figure_3, figure_4, figure_5, regular_shape, samplings_4
 from .polyballs import CENTERS_11, RADII_11, contacts, draw_with_skeleton, examples_12, figure_11, figure_12
 from .proof import figure_13
-from .registry import FIGURES, write_figures
+from .registry import FIGURES, WIDTHS, described, write_figures
 from .removals import OCTAHEDRON, figure_6, figure_7
 from .results import figure_10
 from .simplification import figure_8, figure_9
-from .solids import draw_apart, draw_solid, helix, orange, paint, simplex_of, star
+from .solids import draw_apart, draw_solid, helix, lens, moved_apart, orange, paint, simplex_of, star

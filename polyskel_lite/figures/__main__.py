@@ -10,7 +10,7 @@ import matplotlib
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Write figures as PDF, SVG and PNG, with a line of progress for each.
+    """Write figures as PDF, SVG and PNG in two widths, with a line of progress for each.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> None:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     main([folder, "figure_2"])   # doctest: +ELLIPSIS
     [1/1] figure_2 ... s
-    1 figures (PDF, SVG, PNG) and captions.txt written to ...
+    1 figures (PDF, SVG, PNG, two widths), captions.txt and manifest.json written to ...
     """
     matplotlib.use("Agg")  # files only: no window, no display needed
     logging.getLogger("fontTools").setLevel(logging.ERROR)  # it remarks on the date inside DejaVu's font file
@@ -41,7 +41,10 @@ def main(arguments: list[str] | None = None) -> None:
     for count, name in enumerate(write_figures(options.folder, names), start=1):
         print(f"[{count}/{len(names)}] {name}  {time.perf_counter() - clock:.1f} s", flush=True)
         clock = time.perf_counter()
-    print(f"{len(names)} figures (PDF, SVG, PNG) and captions.txt written to {options.folder}")
+    print(
+        f"{len(names)} figures (PDF, SVG, PNG, two widths), captions.txt and manifest.json "
+        f"written to {options.folder}"
+    )
 
 
 if __name__ == "__main__":

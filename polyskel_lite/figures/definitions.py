@@ -49,7 +49,7 @@ def figure_1(shape=None, n: int = 400, balls: int = 7) -> Figure:
     """
     shape = datasets.load("horse") if shape is None else shape
     skeleton = sk0(delaunay_shape(shape.resample(n)))
-    fig, ax = drawing.axes(width=5.5, height=4.6)
+    fig, ax = drawing.axes(height=5.6)
     drawing.draw_shape(ax, shape)
     drawing.draw_skeleton(ax, skeleton, linewidth=0.9)
     chosen = _disjoint(skeleton.vertices, skeleton.radii, balls)

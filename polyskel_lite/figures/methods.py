@@ -54,19 +54,21 @@ def figure_3(shape=None, n: int = 96, start: float = 0.7) -> Figure:
     drawing.draw_shape(axs[2], polygon, fill=False)
     drawing.draw_balls(axs[3], sk1(shape, E).balls(), outlines=True)
     drawing.draw_skeleton(axs[4], sk1(shape, E), kind="sk1")
-    drawing.draw_skeleton(axs[5], second, kind="sk2")
-    drawing.draw_skeleton(axs[6], sk3(shape, E), kind="sk3", linewidth=1.0)
+    # Solid lines: where a skeleton is in pieces, a dash cannot be told from a gap.
+    drawing.draw_skeleton(axs[5], second, kind="sk2", linestyle="-")
+    drawing.draw_skeleton(axs[6], sk3(shape, E), kind="sk3", linestyle="-", linewidth=1.0)
     drawing.draw_skeleton(axs[7], sk0(inner), kind="sk0")
     drawing.draw_shape(axs[3], shape, fill=False, zorder=2)
     for ax in axs[1:4]:
         drawing.draw_samples(ax, E)
     for ax in axs[:8]:
         drawing.focus(ax, shape, margin=0.05)
-    names = ("shape", "samples", "voronoi", "delaunay", "balls", "sk1", "sk2", "sk3", "sk0")
+    solid = [drawing.handle(name) for name in ("sk2", "sk3")]
+    for line in solid:
+        line.set_linestyle("-")
+    names = ("shape", "samples", "voronoi", "delaunay", "balls", "sk1", *solid, "sk0")
     axs[8].set_title("", loc="left")
-    drawing.legend(
-        axs[8], *names, loc="center", ncols=1, labels={"delaunay": "Delaunay, inner", "balls": "$Y_w$"}
-    )
+    drawing.legend(axs[8], *names, loc="center", ncols=1, labels={"balls": "$Y_w$"})
     return fig
 
 
@@ -95,8 +97,32 @@ def regular_shape(n: int = 1000) -> Shape:
     return Shape.from_rings([np.stack([r * np.cos(t), r * np.sin(t)], axis=1)])
 
 
+def samplings_4(shape=None, n: int = 18) -> tuple[Shape, Shape]:
+    """The two polygons of figure 4, of one density: the second is half a step along the boundary.
+
+    Parameters
+    ----------
+    shape : Shape, optional
+        By default `regular_shape` with 4000 points.
+    n : int
+        Number of samples, uniform by arc length.
+
+    Returns
+    -------
+    pair of Shape
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> [psl.delaunay_shape(polygon).is_gabriel() for polygon in samplings_4()]
+    [True, True]
+    """
+    shape = regular_shape(4000) if shape is None else shape
+    return shape.resample(n), shape.resample(n, start=0.5)
+
+
 @paper_figure
-def figure_4(shape=None, n: int = 90) -> Figure:
+def figure_4(shape=None, n: int = 18) -> Figure:
     """Figure 4: two samplings of the same density, their polyballs and their skeletons.
 
     Section 3.2 of the paper, "Sampling influence".
@@ -104,9 +130,9 @@ def figure_4(shape=None, n: int = 90) -> Figure:
     Parameters
     ----------
     shape : Shape, optional
-        By default the kangaroo.
+        By default `regular_shape` with 4000 points.
     n : int
-        Number of samples, uniform by arc length.
+        Number of samples, uniform by arc length (see `samplings_4`).
 
     Returns
     -------
@@ -118,22 +144,22 @@ def figure_4(shape=None, n: int = 90) -> Figure:
     >>> from polyskel_lite import figures
     >>> plt.close(figures.figure_4())
     """
-    shape = datasets.load("kangaroo") if shape is None else shape
-    samplings = [shape.sample(n), shape.sample(n, start=0.5)]
+    shape = regular_shape(4000) if shape is None else shape
+    samplings = [polygon.points for polygon in samplings_4(shape, n)]
     skeletons = [sk2(shape, E) for E in samplings]
-    fig, axs = drawing.axes(2, 2, height=5.6)
+    fig, axs = drawing.axes(2, 2, height=6.4, letters=True, under=0.05)
     for column, (E, skeleton) in enumerate(zip(samplings, skeletons, strict=True)):
         above, below = axs[column], axs[2 + column]
         drawing.draw_balls(above, skeleton.balls(), outlines=True)
         drawing.draw_shape(above, shape, fill=False)
         drawing.draw_shape(below, shape)
         drawing.draw_skeleton(below, skeletons[1 - column], color="#B0B0B0", linestyle="-", linewidth=4)
-        drawing.draw_skeleton(below, skeleton, kind="sk2")
+        drawing.draw_skeleton(below, skeleton, kind="sk2", linestyle="-")
         for ax in (above, below):
             drawing.draw_samples(ax, E, markersize=4)
             drawing.focus(ax, shape, margin=0.04)
-    axs[0].set_title("(a)", loc="left")
-    axs[2].set_title("(b)", loc="left")
+    for ax, letter in zip(axs, ("(a)", "", "(b)", ""), strict=True):
+        ax.set_title(letter, loc="left")
     return fig
 
 
@@ -152,8 +178,8 @@ def figure_5(
     counts : sequence of int
         Numbers of samples, uniform by arc length.
     noise : float
-        Standard deviation of each coordinate of a noisy sample, as a share of the square root of the shape's
-        area.
+        Standard deviation of normal noise on each coordinate of the last panel's samples, as a share of the
+        square root of the shape's area; that panel's shape is the polygon through them.
     seed : int
         Of the random numbers.
     reference : int
@@ -173,14 +199,16 @@ def figure_5(
     exact = sk2(shape, shape.sample(reference))
     rough = shape.sample(counts[-1])
     rough = rough + np.random.default_rng(seed).normal(0, noise * np.sqrt(shape.area()), rough.shape)
-    pictures = [(shape, None)] + [(shape, shape.sample(n)) for n in counts]
-    pictures.append((Shape.from_rings([rough]), rough))
-    fig, axs = drawing.axes(3, -(-len(pictures) // 3), letters=True, height=2.35 * -(-len(pictures) // 3))
-    for ax, (X, E) in zip(axs, pictures, strict=False):
+    pictures = [(shape, None, "")] + [(shape, shape.sample(n), f"{n} samples") for n in counts]
+    pictures.append((Shape.from_rings([rough]), rough, f"noise {noise:.2%}"))
+    rows = -(-len(pictures) // 3)
+    fig, axs = drawing.axes(3, rows, letters=True, height=2.35 * rows, under=0.05)
+    for ax, (X, E, words) in zip(axs, pictures, strict=False):
+        drawing.say(ax, words)
         drawing.draw_shape(ax, X)
         drawing.draw_skeleton(ax, exact, color="#B0B0B0", linestyle="-", linewidth=3.5)
         if E is not None:
-            drawing.draw_skeleton(ax, sk2(X, E), kind="sk2", linewidth=1.2)
+            drawing.draw_skeleton(ax, sk2(X, E), kind="sk2", linestyle="-", linewidth=1.2)
             drawing.draw_samples(ax, E, markersize=5 if len(E) <= 50 else 2.5)
         drawing.focus(ax, shape, margin=0.05)
     for ax in axs[len(pictures) :]:

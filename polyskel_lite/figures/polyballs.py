@@ -23,6 +23,10 @@ CENTERS_11 = np.array(
 RADII_11 = np.array([1.0, 0.95, 1.02, 0.8, 0.55, 0.6, 0.6])
 
 
+#: From where a panel of figure 12 is seen, if not as all others are: on its sheet, and not along it.
+CAMERAS_12 = {4: {"elev": 50, "azim": -70}}
+
+
 def examples_12() -> list[Polyball]:
     """Default of figure 12: two balls, three, a row, a ring with one apart, a heap, a cage.
 
@@ -36,13 +40,13 @@ def examples_12() -> list[Polyball]:
     golden = (1 + 5**0.5) / 2
     corners = [(0, a, b * golden) for a in (-1, 1) for b in (-1, 1)]
     cage = np.concatenate([np.roll(corners, k, axis=1) for k in range(3)]) / np.hypot(1, golden)
-    heap = [(0, 0, 0), (1.3, 0.2, 0.1), (0.5, 1.1, -0.2), (0.4, 0.2, 1.1), (2.3, 0.3, 0.5), (-0.3, 1.9, 0.1)]
+    heap = [(0, 0, 0), (1.3, 0, 0), (0.65, 1.1, 0), (1.95, 1.1, 0), (2.9, 1.6, 0), (-0.9, -0.5, 0)]
     return [
         Polyball([(0, 0, 0), (1.3, 0, 0)], [1, 0.8]),
         Polyball([(0, 0, 0), (1.3, 0, 0), (0.65, 1.1, 0)], [1, 0.9, 1]),
         Polyball([(0, 0, 0), (0.6, 0, 0), (1.2, 0, 0), (1.9, 0.1, 0)], [1, 1.02, 1, 0.8]),
         Polyball(np.concatenate([ring, [(3.1, 0, 0)]]), np.append(np.full(8, 0.72), 0.5)),
-        Polyball(heap, [1, 0.9, 0.9, 0.9, 0.6, 0.6]),
+        Polyball(heap, [0.9, 0.9, 0.9, 0.9, 0.55, 0.55]),
         Polyball(cage, np.full(12, 0.72)),
     ]
 
@@ -170,7 +174,7 @@ def figure_11(polyball=None) -> Figure:
     fig.legend(
         handles=[drawing.handle("balls", "polyball"), maximal, drawing.handle("sk0", "skeleton"), points],
         loc="lower center",
-        ncols=4,
+        ncols=2 if fig.get_size_inches()[0] < 5 else 4,
     )
     return fig
 
@@ -220,10 +224,13 @@ def figure_12(polyballs=None) -> Figure:
         raise InputError("Figure 12 shows one to six polyballs in space.")
     columns = min(3, len(polyballs))
     rows = -(-len(polyballs) // columns)
-    fig, axs = drawing.axes_3d(columns, rows, height=2.4 * rows, letters=True)
-    for ax, polyball in zip(np.atleast_1d(axs), polyballs, strict=False):
-        # Many dots, some of them in a hollow, hide the skeleton.
-        draw_with_skeleton(ax, polyball, singular=len(polyball.singular_points()) <= 12)
+    fig, axs = drawing.axes_3d(columns, rows, height=2.35 * rows, letters=True)
+    for k, (ax, polyball) in enumerate(zip(np.atleast_1d(axs), polyballs, strict=False)):
+        ax.view_init(**drawing.VIEW | CAMERAS_12.get(k, {}))
+        # Many dots and circles, some of them in a hollow, hide the skeleton.
+        few = len(polyball.singular_points()) <= 12
+        draw_with_skeleton(ax, polyball, singular=few, circles=few)
+        drawing.fill_panel(ax, polyball.patches()[0], share=0.92)
     return fig
 
 

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import base64
 import functools
+import inspect
+import io
+import json
 import re
 import tomllib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from PIL import Image
 
-from ..drawing import RC
+from .. import datasets
+from ..drawing import RC, page_share, page_width, thin
 from ..errors import InputError
 
 #: Every figure function by name, in the paper's order: ``"figure_1"``, ``"figure_2"``, ``"figure_2_3d"`` ...
@@ -39,8 +46,11 @@ def paper_figure(draw: Callable[..., Figure]) -> Callable[..., Figure]:
 
     @functools.wraps(draw)
     def styled(*args, **kwargs) -> Figure:
-        with plt.rc_context(RC):
+        size, share = plt.rcParams["font.size"], page_share()
+        with plt.rc_context(RC if share == 1 else RC | {"font.size": size}):
             figure = draw(*args, **kwargs)
+            if share < 1:
+                thin(figure, max(share, 0.6))
             interactive = plt.isinteractive()
         # The first figure of a notebook loads the backend, which switches interactive mode on; leaving the
         # context would switch it off again, and no later figure of the notebook would be shown.
@@ -68,19 +78,36 @@ def _texts() -> dict[str, dict[str, str]]:
     return tomllib.loads((resources.files(__package__) / "captions.toml").read_text(encoding="utf-8"))
 
 
+#: Widths that journals print, in inches: one column of two, and both.
+WIDTHS = {"single": 3.4, "double": 7.0}
+#: Settings that only files for print need: edges as they are, so that a file is as wide as asked for; letters
+#: stay letters, which can be searched, and edited by a printer.
+PRINT = {"savefig.bbox": None, "savefig.dpi": 300, "svg.fonttype": "none"}
+
+
 def write_figures(
-    folder, names: Iterable[str] | None = None, formats: Iterable[str] = ("pdf", "svg", "png")
+    folder,
+    names: Iterable[str] | None = None,
+    formats: Iterable[str] = ("pdf", "svg", "png"),
+    widths: Mapping[str, float] | None = None,
 ) -> Iterator[str]:
-    """Draw figures with their default data and write them to a folder, with a file of captions and alt texts.
+    """Draw figures with their default data and write them to a folder, with captions and a manifest.
+
+    Many small clear faces stand in PDF and SVG as pixels, 300 an inch; all else is lines and letters. The
+    same version of the library writes the same bytes.
 
     Parameters
     ----------
     folder : path
-        Made if it is not there.
+        Made if it is not there. ``captions.txt`` tells what stands under the figures and what is to be seen;
+        ``manifest.json`` from which data, by which function and with which values each one was made, and what
+        differs from the paper's.
     names : iterable of str, optional
         Keys of `FIGURES`; all by default.
     formats : iterable of str
         File types that matplotlib can write.
+    widths : mapping of str to float, optional
+        Widths in inches, by what is added to the names of files; by default `WIDTHS`.
 
     Yields
     ------
@@ -99,9 +126,9 @@ def write_figures(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     done = list(figures.write_figures(folder, ["figure_2"], ["png"]))
     ...     print(done, sorted(path.name for path in Path(folder).iterdir()))
-    ['figure_2'] ['captions.txt', 'figure_2.png']
+    ['figure_2'] ['captions.txt', 'figure_2_double.png', 'figure_2_single.png', 'manifest.json']
     """
-    names = list(FIGURES if names is None else names)
+    names, formats, widths = list(FIGURES if names is None else names), list(formats), widths or WIDTHS
     unknown = [name for name in names if name not in FIGURES]
     if unknown:
         raise InputError(f"There is no figure called {unknown[0]!r}; choose among {', '.join(FIGURES)}.")
@@ -109,12 +136,64 @@ def write_figures(
     folder.mkdir(parents=True, exist_ok=True)
     texts = [f"{name}\nCaption: {FIGURES[name].caption}\nAlt: {FIGURES[name].alt}\n" for name in names]
     (folder / "captions.txt").write_text("\n".join(texts), encoding="utf-8")
+    manifest = {name: described(name) | {"inches": {}, "files": []} for name in names}
     for name in names:
-        figure = FIGURES[name]()
-        with plt.rc_context(RC):
-            for suffix in formats:
-                # Without dates in the file the same figure gives the same bytes.
-                stamp = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}.get(suffix)
-                figure.savefig(folder / f"{name}.{suffix}", metadata=stamp)
-        plt.close(figure)
+        for word, inches in widths.items():
+            with page_width(inches):
+                figure = FIGURES[name]()
+            manifest[name]["inches"][word] = figure.get_size_inches().round(4).tolist()
+            with plt.rc_context(RC | PRINT):
+                for suffix in formats:
+                    # Without dates in the file the same figure gives the same bytes.
+                    stamp = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}.get(suffix)
+                    path = folder / f"{name}_{word}.{suffix}"
+                    figure.savefig(path, metadata=stamp)
+                    if suffix == "svg":
+                        path.write_text(small_pictures(path.read_text(encoding="utf-8")), encoding="utf-8")
+                    manifest[name]["files"].append(path.name)
+            plt.close(figure)
         yield name
+    text = json.dumps(manifest, indent=2, ensure_ascii=False)
+    (folder / "manifest.json").write_text(text + "\n", encoding="utf-8")
+
+
+def small_pictures(svg: str) -> str:
+    """An SVG file whose embedded pictures have 256 colours each, a third of the size of all colours.
+
+    Examples
+    --------
+    >>> small_pictures("<svg/>")
+    '<svg/>'
+    """
+
+    def smaller(match: re.Match) -> str:
+        picture, file = Image.open(io.BytesIO(base64.b64decode(match[1]))), io.BytesIO()
+        few = picture.convert("RGBA").quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        few.save(file, "PNG", optimize=True)
+        return f'data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"'
+
+    return re.sub(r'data:image/png;base64,\s*([A-Za-z0-9+/=\s]+)"', smaller, svg)
+
+
+def described(name: str) -> dict[str, Any]:
+    """What a figure was made from: number in the paper, function, data, parameters, differences.
+
+    Examples
+    --------
+    >>> from polyskel_lite import figures
+    >>> entry = figures.registry.described("figure_4")
+    >>> entry["function"], entry["parameters"]
+    ('polyskel_lite.figures.figure_4', {'n': 18})
+    """
+    draw, texts = FIGURES[name], _texts()[name]
+    # A parameter that is not given stands for the figure's own data, which the words tell.
+    given = {key: p.default for key, p in inspect.signature(draw).parameters.items() if p.default is not None}
+    sources = {key: datasets.info(key).splitlines() for key in texts["datasets"]}
+    return {
+        "paper": texts["paper"],
+        "function": f"{__package__}.{name}",
+        "data": " ".join(texts["data"].split()),
+        "datasets": sources,
+        "parameters": given,
+        "differs from the paper": " ".join(texts["differs"].split()),
+    }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,7 +14,7 @@ from ..shapes import Shape
 from ..simplification import simplices_by_type
 from ..skeletons import sk0
 from .registry import paper_figure
-from .solids import REST, THIS, draw_apart, draw_solid, helix, orange, simplex_of, star
+from .solids import REST, THIS, draw_apart, draw_solid, helix, lens, moved_apart, orange, simplex_of, star
 
 #: A polygon with all kinds of triangles, for figures 6 and 7: three arms around a middle.
 POLYGON = np.array(
@@ -50,8 +51,9 @@ def examples_6() -> list[tuple[DelaunayShape, int]]:
 def _letter(ax: Axes, k: int, place: tuple[float, float], words: str = "") -> None:
     """Write (a), (b) ... and some words at a place of the figure."""
     write = ax.text2D if ax.name == "3d" else ax.text
-    for shift, text in ((0.0, f"({chr(97 + k)})"), (0.035, words)):
-        write(place[0] + shift, place[1], text, transform=ax.figure.transFigure, va="top", fontsize=9)
+    beside = 2.2 * plt.rcParams["font.size"] / 72 / ax.figure.get_size_inches()[0]
+    for shift, text in ((0.0, f"({chr(97 + k)})"), (beside, words)):
+        write(place[0] + shift, place[1], text, transform=ax.figure.transFigure, va="top")
 
 
 @paper_figure
@@ -78,15 +80,27 @@ def figure_6(examples=None) -> Figure:
     examples = examples_6() if examples is None else examples
     if len(examples) != 6:
         raise InputError(f"Figure 6 has six panels; got {len(examples)} examples.")
-    words = ("hat triangle", "hat tetrahedron", "salient tetrahedron", "cuts", "cuts", "opens a tunnel")
+    words = ("hat triangle", "hat tetrahedron", "salient", "cuts", "cuts", "opens a tunnel")
     fig, axs = drawing.panels([P.dimension for P, _ in examples], 2, 4.4, lift=0.01, elev=33)
     for k, (ax, (P, this)) in enumerate(zip(axs, examples, strict=True)):
         if P.dimension == 2:
             _classified_triangle(ax, P, this)
         else:
-            draw_apart(ax, P, this, spread=0.9)
+            _pieces(ax, P, this)
         _letter(ax, k, (k % 3 / 3 + 0.01, 0.985 - k // 3 / 2), words[k])
     return fig
+
+
+def _pieces(ax: Axes, P: DelaunayShape, this: int) -> None:
+    """The tetrahedra of a region moved apart; where one plugs a tunnel we look along it, through the plug."""
+    rows, spread, alpha = np.flatnonzero(P.inner), 0.9, 0.95
+    if simplices_by_type(P)[this] == 3:
+        corners = P.tessellation.points[P.tessellation.simplices[rows]]
+        x, y, z = corners[rows == this].mean(axis=(0, 1)) - corners.mean(axis=(0, 1))
+        ax.view_init(elev=np.degrees(np.arctan2(z, np.hypot(x, y))), azim=np.degrees(np.arctan2(y, x)))
+        spread, alpha = 0.6, np.where(rows == this, 0.3, 0.95)
+    draw_apart(ax, P, this, spread, alpha=alpha)
+    drawing.fill_panel(ax, moved_apart(P, spread).reshape(-1, 3), share=0.78)
 
 
 def _classified_triangle(ax: Axes, P: DelaunayShape, this: int) -> None:
@@ -101,7 +115,7 @@ def _classified_triangle(ax: Axes, P: DelaunayShape, this: int) -> None:
     for i in np.flatnonzero(np.append(P.inner, False)[t.neighbors[this]]):
         side = np.delete(corners[this], i, axis=0)
         drawing.draw_lines(ax, [side], "delaunay", color="#E8B08A", linewidth=4, zorder=3)
-    drawing.focus(ax, corners[P.inner].reshape(-1, 2), margin=0.06)
+    drawing.focus(ax, corners[P.inner].reshape(-1, 2), margin=0.09)
 
 
 def examples_7() -> list[tuple[DelaunayShape, int]]:
@@ -110,14 +124,14 @@ def examples_7() -> list[tuple[DelaunayShape, int]]:
     Examples
     --------
     >>> [len(sk0(P).polygons) for P, _ in examples_7()]
-    [0, 0, 1]
+    [0, 0, 2]
     """
     polygon = delaunay_shape(Shape.from_rings([POLYGON]))
-    row, ring = helix(5), orange(6)
+    row, sheet = helix(5), lens()
     return [
         (polygon, simplex_of(polygon, (0, 7, 8))),
         (row, simplex_of(row, (0, 1, 2, 3))),
-        (ring, simplex_of(ring, (0, 1, 6, 7))),
+        (sheet, simplex_of(sheet, (0, 1, 6, 7))),
     ]
 
 
@@ -143,7 +157,7 @@ def figure_7(examples=None) -> Figure:
     >>> plt.close(figures.figure_7())
     """
     examples = examples_7() if examples is None else examples
-    fig, axs = drawing.panels([P.dimension for P, _ in examples] * 2, 2, 4.2, elev=33)
+    fig, axs = drawing.panels([P.dimension for P, _ in examples] * 2, 2, 4.2, elev=50)
     for k, (P, this) in enumerate(examples):
         without = P.inner.copy()
         without[this] = False
@@ -151,7 +165,8 @@ def figure_7(examples=None) -> Figure:
             Q = DelaunayShape(P.tessellation, inner)
             if P.dimension == 3:
                 draw_solid(ax, Q, alpha=0.25)
-                drawing.focus_3d(ax, P.tessellation.points, zoom=1.3)
+                drawing.focus_3d(ax, P.tessellation.points)
+                drawing.fill_panel(ax, P.tessellation.points, share=0.86)
             else:
                 drawing.draw_delaunay(ax, Q, edges=False)
                 drawing.draw_skeleton(ax, sk0(Q), kind="sk0", linewidth=2.2)
@@ -162,7 +177,7 @@ def figure_7(examples=None) -> Figure:
                 _mark(ax, P.tessellation.points[mark])
         _letter(axs[k], k, ((k + 0.06) / len(examples), 0.985))
     for y, word in ((0.75, "before"), (0.25, "after")):
-        fig.text(0.002, y, word, rotation=90, va="center", fontsize=9)
+        fig.text(0.006, y, word, rotation=90, va="center")
     return fig
 
 

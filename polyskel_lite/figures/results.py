@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -13,12 +14,22 @@ from ..simplification import hierarchy
 from ..skeletons import branch_graph, sk0
 from .registry import paper_figure
 
-#: From where each shape is seen, and how much it is enlarged: arguments of ``view_init``, and zoom.
+#: From where each shape is seen: arguments of ``view_init``.
 CAMERAS = {
-    "fourbranch": ({"elev": 22, "azim": -52}, 1.18),
-    "chromosome": ({"elev": 15, "azim": 18, "vertical_axis": "y"}, 0.88),
-    "vertebra": ({"elev": 28, "azim": -52}, 1.04),
+    "fourbranch": {"elev": 66, "azim": -30},  # all four arms, none of them shorter than 86 % of its length
+    "chromosome": {"elev": 15, "azim": 18, "vertical_axis": "y"},
+    "vertebra": {"elev": 28, "azim": -52},
 }
+#: How the end of a branch is marked.
+RING = {"color": "none", "markeredgecolor": "#000000", "markeredgewidth": 0.9}
+#: Names of the rows, in the paper's order.
+ROWS = (
+    "shape",
+    "samples",
+    "$Sk_0$",
+    "surface\n" r"$\alpha_0 = \pi/3$",
+    "wireframe\n" r"$\beta_0 = 2\pi$",
+)
 
 
 @paper_figure
@@ -48,23 +59,42 @@ def figure_10(shapes: Mapping[str, DelaunayShape] | None = None) -> Figure:
     if shapes is None:
         shapes = {name: datasets.load(name) for name in CAMERAS}
     n = len(shapes)
-    fig, axs = drawing.axes_3d(n, 5, height=9.8)
+    fig, axs = drawing.axes_3d(n, 5, height=10.0)
     grid = np.reshape(axs, (5, n))
+    line = plt.rcParams["font.size"] / 72  # room for names of rows and columns, and for numbers and colours
+    (left, over), (_, under) = 3 * line / fig.get_size_inches(), 6 * line / fig.get_size_inches()
+    low, high = under, 1 - over
+    for row, column in np.ndindex(grid.shape):
+        width, height = (1 - left) / n, (high - low) / 5
+        place = (left + column * width, high - (row + 1) * height, width, height)
+        grid[row, column].set_position(place)
     for column, (name, shape) in enumerate(shapes.items()):
-        view, zoom = CAMERAS.get(name, (drawing.VIEW, 1.3))
         P = shape if isinstance(shape, DelaunayShape) else delaunay_shape(shape)
         for ax in grid[:, column]:
-            ax.view_init(**view)
+            ax.view_init(**CAMERAS.get(name, drawing.VIEW))
         branches = _column(grid[:, column], P)
+        outline = P.tessellation.points[np.unique(P.boundary())]
         for ax in grid[:, column]:
-            drawing.focus_3d(ax, P.tessellation.points[np.unique(P.boundary())], zoom=zoom)
-        heading = f"{name}, {len(np.unique(P.boundary()))} samples"
-        grid[0, column].text2D(0.5, 1.0, heading, transform=grid[0, column].transAxes, ha="center", va="top")
-        found = f"{branches} branches"
-        grid[4, column].text2D(0.5, 0.0, found, transform=grid[4, column].transAxes, ha="center", va="bottom")
-    for letter, ax in zip("abcde", grid[:, 0], strict=True):
-        ax.text2D(0.0, 0.5, f"({letter})", transform=ax.transAxes, va="top")
+            drawing.focus_3d(ax, outline)
+            drawing.fill_panel(ax, outline, share=0.97)
+        middle = left + (column + 0.5) * (1 - left) / n
+        _write(grid[0, column], middle, 0.998, f"{name}\n{len(outline)} samples", va="top")
+        _write(grid[4, column], middle, 0.99 * under, f"{branches} branches", va="top")
+    for row, (letter, name) in enumerate(zip("abcde", ROWS, strict=True)):
+        top = high - row * (high - low) / 5
+        _write(grid[row, 0], 0.006, top, f"({letter})", va="top")
+        _write(grid[row, 0], 0.006, top - (high - low) / 10, name, va="center", rotation=90)
+    scale = fig.add_axes((0.3, 0.58 * under, 0.4, 0.1 * under))
+    words = "radius of the ball, in % of the largest in (e)"
+    drawing.draw_color_bar(scale, (0, 100), words, ticks=[0, 50, 100])
+    scale.tick_params(pad=1, length=2)
     return fig
+
+
+def _write(ax, x: float, y: float, words: str, **style) -> None:
+    """Write at a place of the figure, whichever panel it is."""
+    ha = "left" if x < 0.1 else "center"
+    ax.text2D(x, y, words, transform=ax.figure.transFigure, ha=ha, ma="center", **style)
 
 
 def _column(axs, P: DelaunayShape) -> int:
@@ -82,4 +112,10 @@ def _column(axs, P: DelaunayShape) -> int:
     for ax, skeleton in zip(axs[2:], (whole, surface, wires), strict=True):
         drawing.draw_glass(ax, P)
         drawing.draw_skeleton_3d(ax, skeleton, values=skeleton.radii, limits=limits)
-    return branch_graph(wires).graph["branches"]
+    for ax in axs:
+        for layer in ax.collections:
+            layer.set_rasterized(len(layer.get_facecolor()) > 200)  # in files of lines: a picture
+    graph = branch_graph(wires)
+    ends = [v for v, kind in graph.nodes(data="kind") if kind == "end"]
+    drawing.draw_samples_3d(axs[4], wires.vertices[ends], marker="o", markersize=4, zorder=9, **RING)
+    return graph.graph["branches"]

@@ -85,6 +85,31 @@ def orange(slices: int, of: int | None = None, height: float = 0.42) -> Delaunay
     return region(points, [(0, 1, 2 + k, 2 + (k + 1) % n) for k in range(slices)])
 
 
+def lens(height: float = 0.45, long: float = 1.4) -> DelaunayShape:
+    """Two oranges under one skin: a flat body with the inner edges 0-1 and 0-2, and six more samples.
+
+    Its skeleton is a sheet of two polygons, one around each inner edge, with a common side.
+
+    Parameters
+    ----------
+    height : float
+        Half the height of the body.
+    long : float
+        Half its length; it is two wide.
+
+    Examples
+    --------
+    >>> from polyskel_lite import sk0
+    >>> sk0(lens()).betti(), [len(polygon) for polygon in sk0(lens()).polygons]
+    ((1, 0, 0), [5, 5])
+    """
+    t = 2 * np.pi * (np.arange(6) + 0.5) / 6
+    ring = np.column_stack([long * np.cos(t), np.sin(t), np.zeros(6)])
+    ends = [(0, 0, height), (-long / 4, 0, -height), (long / 4, 0, -height)]
+    tessellation = delaunay(np.concatenate([ends, ring]))
+    return DelaunayShape(tessellation, np.ones(len(tessellation.simplices), dtype=bool))
+
+
 def helix(tetrahedra: int) -> DelaunayShape:
     """Regular tetrahedra stuck together in a row: the Boerdijk-Coxeter helix. Its skeleton is a path.
 
@@ -151,6 +176,28 @@ def paint(ax: Axes, triangles, colors, alpha=1.0, edgecolor="#4D4D4D", linewidth
     return ax
 
 
+def moved_apart(P: DelaunayShape, spread: float = 0.5, shrink: float = 1.0) -> np.ndarray:
+    """Corners of the simplices of a region, (k, N+1, N) float array, each simplex moved away from the middle.
+
+    Parameters
+    ----------
+    P : DelaunayShape
+    spread : float
+        How far each is moved, as a share of its distance to the common centre.
+    shrink : float
+        Each simplex is scaled by it about its own centroid.
+
+    Examples
+    --------
+    >>> P = orange(6)
+    >>> np.allclose(moved_apart(P, spread=0), P.tessellation.points[P.tessellation.simplices])
+    True
+    """
+    corners = P.tessellation.points[P.tessellation.simplices[P.inner]]
+    centroids = corners.mean(axis=1, keepdims=True)
+    return centroids + shrink * (corners - centroids) + spread * (centroids - centroids.mean(axis=0))
+
+
 def draw_apart(
     ax: Axes, P: DelaunayShape, this: int = -2, spread: float = 0.5, shrink: float = 1.0, alpha=0.95, **focus
 ) -> Axes:
@@ -165,10 +212,10 @@ def draw_apart(
     P : DelaunayShape
     this : int
         Row of the tetrahedron the picture is about.
-    spread : float
-        How far each is moved away from the common centre, as a share of its distance to it.
-    shrink : float
-        Each tetrahedron is scaled by it about its own centroid.
+    spread, shrink : float
+        As in `moved_apart`.
+    alpha : float or k floats
+        Opacity of the tetrahedra.
     **focus
         Handed on to `polyskel_lite.drawing.focus_3d`.
 
@@ -181,14 +228,13 @@ def draw_apart(
     >>> plt.close(fig)
     """
     t, rows = P.tessellation, np.flatnonzero(P.inner)
-    corners = t.points[t.simplices[rows]]
-    centroids = corners.mean(axis=1, keepdims=True)
-    corners = centroids + shrink * (corners - centroids) + spread * (centroids - centroids.mean(axis=0))
+    corners = moved_apart(P, spread, shrink)
     triangles = corners[:, drawing.OPPOSITE]
     beyond = np.where(np.append(P.inner, False)[t.neighbors[rows]], t.neighbors[rows], -1)
     shared = (beyond >= 0) & ((beyond == this) | (rows == this)[:, None])
     colors = np.where(shared, SHARED, np.where(rows == this, THIS, REST)[:, None])
-    paint(ax, triangles.reshape(-1, 3, 3), colors.ravel(), alpha)
+    alphas = np.repeat(np.broadcast_to(alpha, len(rows)), 4)
+    paint(ax, triangles.reshape(-1, 3, 3), colors.ravel(), alphas)
     for four in corners[(rows == this) & (shared.sum(axis=1) == 2)]:
         edge = four[~shared[rows == this][0]]  # where the two shared facets meet
         drawing.draw_lines_3d(ax, [edge], "delaunay", colors="#000000", linewidths=2.4, zorder=6)

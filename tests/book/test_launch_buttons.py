@@ -47,7 +47,8 @@ def small_book(folder: Path, settings: str) -> dict[str, Links]:
             (notebooks / path.name).symlink_to(path)
     (notebooks / "conf.py").unlink()
     (notebooks / "conf.py").write_text((ROOT / "notebooks" / "conf.py").read_text(encoding="utf-8"))
-    (folder / "polyskel_lite").symlink_to(ROOT / "polyskel_lite")
+    for name in ("polyskel_lite", "tools"):
+        (folder / name).symlink_to(ROOT / name)
     toml = (ROOT / "book.toml").read_text(encoding="utf-8")
     begin, end = toml.index("[toc]"), toml.index("# Handed on")
     toc = '[toc]\nformat = "jb-book"\nroot = "one"\nchapters = [{ file = "two" }]\n\n'

@@ -145,9 +145,17 @@ class Visit:
         assert self.outside() == []
 
 
+# Pictures wait for a reader to come near; this one wants them all.
+ALL_PICTURES = """() => Promise.all([...document.images].map((image) => {
+    image.loading = "eager";
+    return image.decode().catch(() => {});
+}))"""
+
+
 def ready(page: "Page") -> None:
-    """Wait until the formulas are set and every skeleton viewer, once scrolled to, has drawn a picture."""
+    """Wait until the formulas are set and all pictures and skeleton viewers, as if scrolled to, are there."""
     page.evaluate("async () => { await window.MathJax?.startup?.promise }")
+    page.evaluate(ALL_PICTURES)
     for viewer in page.locator(".psl-viewer").all():
         viewer.scroll_into_view_if_needed()
         viewer.locator("xpath=self::*[@data-ready='true' and @data-frames]").wait_for()

@@ -8,6 +8,7 @@ import pytest
 from .accessibility import COLOURS, STRUCTURE, findings
 from .conftest import pages
 
+HEAVIEST = 1_500_000
 # What a reader would miss: pictures that did not come or that say nothing, formulas that were not set.
 LOST = """() => {
     const lost = [];
@@ -43,6 +44,23 @@ def test_page_from_a_web_server_on_a_phone(visit, site, name):
     assert opened.page.evaluate(LOST) == []
     assert findings(opened.page, STRUCTURE) == []
     opened.assert_quiet()
+
+
+@pytest.mark.parametrize("name", pages())
+def test_landing_is_light(browser, site, book, name):
+    """What a first visit fetches before the reader does anything, not packed."""
+    profile = browser.new_context(viewport={"width": 1280, "height": 800}, reduced_motion="reduce")
+    page, fetched = profile.new_page(), set()
+    page.on("requestfinished", lambda request: fetched.add(request.url.removeprefix(site).split("?")[0]))
+    page.goto(f"{site}/{name}.html", wait_until="networkidle")
+    profile.close()
+    files = [book / name.lstrip("/") for name in fetched]
+    sizes = {file.name: file.stat().st_size for file in files if file.is_file()}
+    assert f"{name}.html" in sizes
+    assert sum(sizes.values()) < HEAVIEST, sorted(sizes.items(), key=lambda item: -item[1])
+    assert ("startup.js" in sizes) == ('class="math' in (book / f"{name}.html").read_text(encoding="utf-8"))
+    assert not {"fontawesome.js", "fa-solid-900.woff2", "tex-chtml.js"} & set(sizes)
+    assert ("searchindex.js" in sizes) == (name == "search")
 
 
 @pytest.mark.parametrize("place", ["book", "site"])

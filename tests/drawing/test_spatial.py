@@ -10,6 +10,7 @@ from mpl_toolkits.mplot3d import proj3d
 
 import polyskel_lite as psl
 from polyskel_lite import drawing
+from polyskel_lite.drawing import view
 
 POINTS_3D = np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2), (2, 2, 3), (0.7, 0.6, 0.5)])
 
@@ -97,3 +98,12 @@ def test_skeleton_in_space_without_wires(ax3, slab):
     assert len(ax3.collections) == (len(skeleton.polygons) > 0)
     with pytest.raises(psl.InputError, match="free"):
         drawing.draw_skeleton_3d(ax3, skeleton, wires="some")
+
+
+def test_fill_panel_shows_all_of_the_points_in_the_middle_of_a_long_place():
+    _, axs = drawing.axes_3d(2, height=2)
+    points = np.random.default_rng(3).random((50, 3)) * (1, 2, 5)
+    ax = drawing.fill_panel(drawing.focus_3d(axs[0], points), points, share=0.9)
+    low, high = view.seen_between(ax, points)
+    assert np.allclose((low + high) / 2, (1.75, 1.0), atol=0.01)
+    assert np.isclose(((high - low) / (3.5, 2.0)).max(), 0.9, atol=0.01)

@@ -85,3 +85,16 @@ def test_kinds_can_be_told_apart_with_any_colour_vision(vision):
         for pair in itertools.combinations(colors, 2)
     }
     assert min(close.values()) > 10, min(close, key=close.get)
+
+
+def test_a_narrow_page_has_smaller_panels_and_thinner_lines_but_not_smaller_letters_than_can_be_read():
+    with drawing.page_width(3.5) as share:
+        fig, axs = drawing.axes(2, height=2.3, letters=True)
+        drawing.draw_lines(axs[0], [[(0, 0), (1, 1)]], "sk0")
+        drawing.say(axs[0], "words")
+        drawing.thin(fig, share)
+    assert fig.get_size_inches()[0] == 3.5
+    assert axs[0].texts[0].get_fontsize() == 7
+    assert axs[0].collections[0].get_linewidth() == [0.5 * drawing.KINDS["sk0"].linewidth]
+    wide, _ = drawing.axes(2, height=2.3)
+    assert wide.get_size_inches()[0] == drawing.TEXT_WIDTH

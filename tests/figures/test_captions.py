@@ -1,4 +1,4 @@
-"""Words of the figures, and the files they are written to."""
+"""Words of the figures."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import re
 
 import pytest
 
-import polyskel_lite as psl
 from polyskel_lite import figures
 
 
@@ -34,31 +33,3 @@ def test_captions_name_the_panels_that_there_are(name):
     if "(b) to (e)" in draw.caption:
         named |= {"(c)", "(d)"}
     assert drawn == named
-
-
-def test_writing_figures_makes_files_and_captions(tmp_path):
-    names = ["figure_2", "figure_13"]
-    assert list(figures.write_figures(tmp_path / "new", names, ["svg"])) == names
-    assert sorted(p.name for p in (tmp_path / "new").iterdir()) == [
-        "captions.txt",
-        "figure_13.svg",
-        "figure_2.svg",
-    ]
-    text = (tmp_path / "new" / "captions.txt").read_text(encoding="utf-8")
-    assert figures.figure_13.alt in text
-    assert "figure_1\n" not in text
-
-
-def test_the_same_figure_makes_the_same_file(tmp_path):
-    for folder in ("once", "twice"):
-        list(figures.write_figures(tmp_path / folder, ["figure_2"], ["svg", "pdf"]))
-    for suffix in ("svg", "pdf"):
-        first, second = (
-            (tmp_path / folder / f"figure_2.{suffix}").read_bytes() for folder in ("once", "twice")
-        )
-        assert first == second
-
-
-def test_unknown_figure_is_refused(tmp_path):
-    with pytest.raises(psl.InputError, match="figure_99"):
-        list(figures.write_figures(tmp_path, ["figure_99"]))

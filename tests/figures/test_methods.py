@@ -20,11 +20,41 @@ def test_figure_3_shows_where_the_methods_differ():
     assert psl.sk0(P).betti() == (1, 0)
 
 
-def test_figure_4_compares_samplings_of_one_density():
-    kangaroo = psl.datasets.load("kangaroo")
-    first, second = kangaroo.sample(90), kangaroo.sample(90, start=0.5)
-    assert kangaroo.covering_radius(second) == pytest.approx(kangaroo.covering_radius(first), rel=0.05)
-    assert np.linalg.norm(first[:, None] - second[None], axis=2).min() > 0
+def gaps(figure, panel: int) -> list:
+    """Line patterns in a panel; None is a solid line."""
+    styles = [c.get_linestyles() for c in figure.axes[panel].collections if hasattr(c, "get_segments")]
+    return [dash for style in styles for _, dash in style]
+
+
+def test_figure_3_draws_pieces_without_gaps_of_their_own():
+    """Sk2 is in three pieces, which one can count only where no dash is taken for a gap."""
+    figure = figures.figure_3()
+    assert [dash for panel in (5, 6) for dash in gaps(figure, panel)] == [None, None]
+
+
+def test_figure_4_compares_gabriel_samplings_of_one_density():
+    """The polygons are strictly Gabriel, as the paper says, and no sample is shared."""
+    first, second = figures.samplings_4()
+    shape = figures.regular_shape(4000)
+    for polygon in (first, second):
+        assert psl.delaunay_shape(polygon).is_gabriel()
+    one, two = (shape.covering_radius(polygon.points) for polygon in (first, second))
+    assert two == pytest.approx(one, rel=0.05)
+    assert np.linalg.norm(first.points[:, None] - second.points[None], axis=2).min() > 0
+
+
+def test_figure_5_tells_samples_and_noise():
+    figure = figures.figure_5(counts=(10, 50), noise=0.01, reference=400)
+    words = [text.get_text() for ax in figure.axes for text in ax.texts if text.get_text()]
+    assert words == ["10 samples", "50 samples", "noise 1.00%"]
+
+
+def test_figure_5_has_the_noise_that_it_tells():
+    shape = figures.regular_shape(2000)
+    figure = figures.figure_5()
+    clean, rough = (figure.axes[k].lines[-1].get_xydata() for k in (4, 5))
+    moved = (rough - clean) / np.sqrt(shape.area())
+    assert moved.std() == pytest.approx(0.0025, rel=0.1)
 
 
 def test_figure_5_comes_closer_with_more_samples():

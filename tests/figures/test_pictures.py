@@ -136,7 +136,7 @@ def test_tolerance_sees_every_layer(name):
 def test_stored_pictures_are_small_and_none_is_left_over():
     stored = {path.stem: path.stat().st_size for path in (Path(__file__).parent / "baseline").glob("*.png")}
     assert sorted(stored) == sorted(figures.FIGURES)
-    assert max(stored.values()) < 80_000  # figure 10 has fifteen panels
+    assert max(stored.values()) < 120_000  # figure 10 has fifteen panels
 
 
 def test_stored_pictures_belong_to_the_locked_matplotlib():

@@ -47,13 +47,25 @@ class PageModel {
   save_changes() {}
 }
 
+/** The data of a viewer: those in the page, or those of a script that the page names and that is fetched now. */
+async function dataOf(root) {
+  const { textContent, dataset: { from, name } } = root.querySelector("script[type='application/json']");
+  if (!from) return JSON.parse(textContent);
+  await new Promise((fetched, failed) => {
+    const script = make("script", { src: from });
+    script.onload = fetched;
+    script.onerror = () => failed(new Error(`${from} is not there`));
+    document.head.append(script);
+  });
+  return globalThis.pslData[name];
+}
+
 /** Mount every viewer of a page that holds its data. Data far down the page wait until the reader comes near. */
 function mount(page = document) {
   const near = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
     if (!isIntersecting) return;
     near.unobserve(target);
-    const holder = target.querySelector("script[type='application/json']");
-    render({ model: new PageModel(JSON.parse(holder.textContent)), el: target })
+    dataOf(target).then((data) => render({ model: new PageModel(data), el: target }))
       .catch((error) => { target.dataset.error = String(error); console.warn("skeleton viewer:", error); });
   }), { rootMargin: "600px" });
   page.querySelectorAll(".psl-viewer").forEach((root) => {
