@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
 from ..errors import DuplicatePointError, InputError, TessellationError
-from ..exact import in_gabriel_ball, overlapping_pairs, point_segment_distance
+from ..exact import facet_distance, in_gabriel_ball, overlapping_pairs
 from ..graphs import OPPOSITE, Change, Tessellation, facet_rows, gabriel_mask, grown_from, preferring
 from ..shapes import Shape, check_shape
 from .conforming_solids import conform_solid
@@ -318,7 +318,7 @@ def _distances(corners: np.ndarray, points: np.ndarray, facets: np.ndarray) -> n
     for i, j in overlapping_pairs(*boxes):
         other = (facets[j] != corners[i, None]).all(axis=1)
         i, j = i[other], j[other]
-        np.minimum.at(nearest, i, point_segment_distance(place[i], ends[j]))
+        np.minimum.at(nearest, i, facet_distance(place[i], ends[j]))
     return nearest / 3
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..checks import near
 from ..errors import ShapeError
-from ..exact import as_integers, components, locate_in_mesh, meeting_faces, occurrences, shadow_signs
+from ..exact import as_integers, components, locate, meeting_faces, occurrences, shadow_signs
 
 
 def check_mesh(points: np.ndarray, faces: np.ndarray, doubtful=None) -> None:
@@ -210,7 +210,7 @@ def nesting_of_surfaces(points, faces, twins) -> tuple[np.ndarray, np.ndarray, n
         triangles = points[faces[label == k]]
         turn[k] = turn_of_surface(triangles)
         if count > 1:
-            inside = locate_in_mesh(triangles, first) > 0
+            inside = locate(triangles, first) > 0
             inside[k] = False
             depth += inside
     return label, depth, turn
