@@ -5,8 +5,8 @@ predicates (orientation, in-ball and Gabriel tests), segments, triangles, region
 fractions, polygons and rings around edges, Betti numbers, rows of small whole numbers.
 """
 
-from .arrays import unique_rows
-from .boxes import overlapping_pairs
+from .arrays import spread_out, unique_rows
+from .boxes import near_pairs, octave_pairs, octaves, overlapping_pairs
 from .nearest import facet_distance, nearest_facets, nearest_on_facets
 from .polygons import Polygons, dual_polygons, edge_rings
 from .predicates import as_integers, fractions, in_ball, in_gabriel_ball, orientation

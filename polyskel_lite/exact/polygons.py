@@ -9,7 +9,7 @@ import numpy as np
 
 from ..checks import as_indices, shown
 from ..errors import InputError
-from .arrays import unique_rows
+from .arrays import spread_out, unique_rows
 
 
 class Polygons(Sequence):
@@ -79,9 +79,9 @@ class Polygons(Sequence):
         >>> Polygons.of([[4, 5, 6], [0, 1, 2, 3]]).triangles().tolist()
         [[4, 5, 6], [0, 1, 2], [0, 2, 3]]
         """
-        count = self.sizes - 2
-        first = np.repeat(self._ends - self.sizes, count)
-        along = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+        polygon, along = spread_out(self.sizes - 2)
+        first = (self._ends - self.sizes)[polygon]
+        along += first + 1
         return self.corners[np.column_stack([first, along, along + 1])]
 
     def __getitem__(self, k):
@@ -169,11 +169,8 @@ def _positions(edge, owner, following, span):
 
 
 def _compact(corners, begin, length) -> Polygons:
-    keep = np.zeros(len(corners), dtype=bool)
-    keep[
-        np.repeat(begin, length) + np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
-    ] = True
-    return Polygons(corners[keep], length)
+    polygon, place = spread_out(length)
+    return Polygons(corners[begin[polygon] + place], length)
 
 
 _PAIRS = list(combinations(range(4), 2))

@@ -61,18 +61,15 @@ def first_meeting(
     (0, 2)
     """
     ends = points[facets]
-    low, high = ends.min(axis=1), ends.max(axis=1)
-    low, high = (np.hstack([corner, np.zeros((len(facets), 1))]) for corner in (low, high))
+    low, high, found = ends.min(axis=1), ends.max(axis=1), []
     for i, j in self_overlaps(low, high) if doubtful is None else overlaps_of(doubtful, low, high):
         shared = facets[i][:, :, None] == facets[j][:, None, :]
         apart = ~shared.any(axis=(1, 2))
         bad = np.zeros(len(i), dtype=bool)
         bad[apart] = segments_meet(ends[i[apart]], ends[j[apart]])
         bad[~apart] = _on_each_other(points, facets[i[~apart]], facets[j[~apart]], shared[~apart])
-        if bad.any():
-            k = np.flatnonzero(bad)[np.lexsort((j[bad], i[bad]))[0]]
-            return int(i[k]), int(j[k])
-    return None
+        found += sorted(zip(i[bad].tolist(), j[bad].tolist(), strict=True))[:1]
+    return min(found, default=None)
 
 
 def _on_each_other(points, a, b, shared) -> np.ndarray:

@@ -12,8 +12,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
+from ..exact import octaves, spread_out
 from .discs import TURN, Boundary
-from .pairs import octaves, rounding, spread_out
+from .pairs import rounding
 from .union import BallUnion
 
 _CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
