@@ -15,5 +15,5 @@ from .regions import locate, odd_around
 from .segments import first_meeting, nearest_on_segments
 from .signs import flat_turn, in_circle, in_sphere, turn_2d, turn_3d, whole_numbers
 from .signs import loops as sign_loops
-from .topology import betti_numbers, components, euler_characteristic, occurrences
+from .topology import betti_numbers, components, occurrences
 from .triangles import meeting_faces, shadow_signs

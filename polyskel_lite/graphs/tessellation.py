@@ -100,7 +100,7 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: _circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
+        balls = in_blocks(lambda rows: circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
         return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
 
     @property
@@ -243,26 +243,21 @@ def ordinary(tessellation: Tessellation) -> tuple[Tessellation, int]:
     return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors), exponent
 
 
-def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Circumcenters and circumradii of simplices with corners (t, N+1, N).
+def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Circumcenters and circumradii of simplices with corners (t, N+1, N), and bounds on the centers' errors.
 
     Returns
     -------
     centers : (t, N) float array
         Infinite for flat simplices.
-    radii : (t,) float array
+    radii, errors : (t,) float arrays
 
     Examples
     --------
-    >>> centers, radii = circumballs(np.array([[[0.0, 0.0], [8.0, 0.0], [0.0, 6.0]]]))
+    >>> centers, radii, _ = circumballs(np.array([[[0.0, 0.0], [8.0, 0.0], [0.0, 6.0]]]))
     >>> centers.tolist(), radii.tolist()
     ([[4.0, 3.0]], [5.0])
     """
-    return _circumballs(np.asarray(simplices, dtype=np.float64))[:2]
-
-
-def _circumballs(simplices):
-    """Centers, radii, and a bound on the error of each center."""
     corners = simplices.transpose(2, 1, 0)  # of which, by `corners_of`, each coordinate is contiguous
     d = corners[:, 1:] - corners[:, :1]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):

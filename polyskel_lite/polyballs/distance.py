@@ -1,7 +1,7 @@
 """Distance from points to the boundary of a union of balls, exact to rounding.
 
-The nearest point of the boundary is straight ahead of the middle of a circle on one of its arcs, or the end of
-an arc. In space, it is the distance to the nearest ball outside; inside, the nearest point can be straight
+The nearest point of the boundary is straight ahead of the middle of a circle on one of its arcs, or the end
+of an arc. In space, it is the distance to the nearest ball outside; inside, the nearest point can be straight
 ahead of a centre on a patch of its sphere as well. Arcs and spheres that are farther than the best point
 found so far are never looked at.
 """

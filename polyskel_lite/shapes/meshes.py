@@ -187,9 +187,8 @@ def turn_of_surface(triangles: np.ndarray) -> int:
     # Each of the 6 m products is off by a few units; far outside of that the sign is sure.
     if abs(volume) > 1e-13 * len(triangles) * size**3:
         return 1 if volume > 0 else -1
-    (a, b, c) = as_integers(triangles)[0].transpose(1, 2, 0)
-    exact = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-    exact = (exact + a[2] * (b[0] * c[1] - b[1] * c[0])).sum()
+    a, b, c = as_integers(triangles)[0].transpose(1, 0, 2)
+    exact = (a * np.cross(b, c)).sum()
     return (exact > 0) - (exact < 0)
 
 
