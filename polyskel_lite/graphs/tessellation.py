@@ -100,7 +100,7 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
+        balls = in_blocks(lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices)
         return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
 
     @property
@@ -198,17 +198,15 @@ def _halves(facets, n):
     return facets[:, 0], facets[:, 1] if facets.shape[1] == 2 else facets[:, 1] * n + facets[:, 2]
 
 
-def corners_of(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
-    """The corners of simplices, (t, N+1, N), so that each coordinate of all corners is contiguous.
+def corners_of(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """The same as ``points[simplices]``, (t, N+1, N), so that each coordinate of all corners is contiguous.
 
     Examples
     --------
-    >>> from polyskel_lite import delaunay
-    >>> corners_of(delaunay([(0, 0), (1, 0), (0, 1)])).tolist()
+    >>> corners_of(np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]), np.array([(0, 1, 2)])).tolist()
     [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
     """
-    simplices = tessellation.simplices[rows].T.astype(np.intp, copy=False)
-    return np.take(tessellation.points.T, simplices, axis=1).transpose(2, 1, 0)
+    return np.take(points.T, simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
 
 
 def in_blocks(function, rows: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -4,6 +4,7 @@ In the room: `Shape`, a closed region of the plane or of space with a checked bo
 meshes must be; samples at equal distances and how densely they cover a boundary.
 """
 
+from .boundary import only_in
 from .density import FLOOR
 from .sampling import halved
 from .shape import Shape, check_shape
