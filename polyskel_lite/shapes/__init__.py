@@ -5,7 +5,7 @@ meshes must be; samples at equal distances and how densely they cover a boundary
 """
 
 from .boundary import only_in
-from .density import FLOOR
+from .density import FLOOR, local_width
 from .sampling import halved
 from .shape import Shape, check_shape
 from .splitting import edge_keys, independent, quads, split_edges
