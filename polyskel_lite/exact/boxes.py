@@ -58,12 +58,15 @@ def near_pairs(places: np.ndarray, reach: np.ndarray, p: float = 2.0) -> Iterato
     slack = 1e-14 * np.abs(places).max(initial=0.0)  # some ten roundings
     for a, tree, b, other, within in octave_pairs(places, reach):
         within = within * (1 + 1e-9) + slack
-        some = places[a[:: 1 + len(a) // 256]]  # which tell about how many there are
-        count = other.query_ball_point(some, within, p=p, return_length=True).mean() * len(a)
+        count = len(a) * len(b)
+        if count > _CHUNK:  # some of them tell about how many there are
+            some = places[a[:: 1 + len(a) // 256]]
+            count = other.query_ball_point(some, within, p=p, return_length=True).mean() * len(a)
         for part in np.array_split(a, 1 + int(count) // _CHUNK):
-            near = cKDTree(places[part]).sparse_distance_matrix(other, within, p=p, output_type="ndarray")
+            tree = tree if len(part) == len(a) else cKDTree(places[part])
+            near = tree.sparse_distance_matrix(other, within, p=p, output_type="ndarray")
             i, j = part[near["i"]], b[near["j"]]
-            once = (i < j) | (tree is not other)  # within one tree each pair is found from both sides
+            once = (i < j) | (a is not b)  # within one tree each pair is found from both sides
             yield np.minimum(i, j)[once], np.maximum(i, j)[once], near["v"][once]
 
 

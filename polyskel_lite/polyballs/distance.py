@@ -84,20 +84,26 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     ends = circles.points(np.tile(row, 2), np.concatenate([start, end]))
     marks = cKDTree(np.concatenate([ends, boundary.corners, middles]))
     best = marks.query(points)[0]
+
+    def straight_ahead(pairs):
+        """The nearest point of a circle is straight ahead of its middle; it counts if it is on the arc."""
+        point, found = pairs // len(row), pairs % len(row)
+        seen = points[point] - circles.centers[row[found]]
+        x, y, *z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
+        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
+        gap = np.hypot(z[0] if z else 0, np.hypot(x, y) - circles.radii[row[found]])
+        np.minimum.at(best, point[on], gap[on])
+
+    if len(points) * len(row) <= _CHUNK:
+        straight_ahead(np.arange(len(points) * len(row)))
+        return best
     reach = half * circles.radii[row[arc]]
     # One search radius for pieces of about the same length, so that short ones are not searched for in vain.
     for group in octaves(reach):
         near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
-        pairs = np.unique(point * len(row) + arc[piece])
-        point, found = pairs // len(row), pairs % len(row)
-        # The nearest point of the circle is straight ahead of its middle; it counts if it is on the arc.
-        seen = points[point] - circles.centers[row[found]]
-        x, y, *z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
-        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
-        gap = np.hypot(z[0] if z else 0, np.hypot(x, y) - circles.radii[row[found]])
-        np.minimum.at(best, point[on], gap[on])
+        straight_ahead(np.unique(point * len(row) + arc[piece]))
     return best
 
 
