@@ -27,7 +27,8 @@ def octave_pairs(places: np.ndarray, reach: np.ndarray) -> Iterator[tuple]:
 
     Examples
     --------
-    >>> [(a.tolist(), b.tolist(), d) for a, _, b, _, d in octave_pairs(np.zeros((2, 2)), np.array([1.0, 2]))]
+    >>> pairs = octave_pairs(np.zeros((2, 2)), np.array([1.0, 2]))
+    >>> [(a.tolist(), b.tolist(), float(d)) for a, _, b, _, d in pairs]
     [([0], [0], 2.0), ([1], [0], 3.0), ([1], [1], 4.0)]
     """
     groups = [(rows, cKDTree(places[rows]), reach[rows].max()) for rows in octaves(reach)]

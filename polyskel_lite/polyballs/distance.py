@@ -82,8 +82,7 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     half = ((end - start) / size / 2)[arc]
     middles = circles.points(row[arc], start[arc] + (2 * number + 1) * half)
     ends = circles.points(np.tile(row, 2), np.concatenate([start, end]))
-    marks = cKDTree(np.concatenate([ends, boundary.corners, middles]))
-    best = marks.query(points)[0]
+    best = cKDTree(np.concatenate([ends, boundary.corners])).query(points)[0]
 
     def straight_ahead(pairs):
         """The nearest point of a circle is straight ahead of its middle; it counts if it is on the arc."""
@@ -98,9 +97,12 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
         straight_ahead(np.arange(len(points) * len(row)))
         return best
     reach = half * circles.radii[row[arc]]
+    bound = cKDTree(middles).query(points)[0]
     # One search radius for pieces of about the same length, so that short ones are not searched for in vain.
     for group in octaves(reach):
-        near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
+        near = cKDTree(middles[group]).query_ball_point(
+            points, np.minimum(best, bound) * (1 + 1e-9) + reach[group].max()
+        )
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
         straight_ahead(np.unique(point * len(row) + arc[piece]))
