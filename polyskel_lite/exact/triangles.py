@@ -160,10 +160,9 @@ def _meet(s: np.ndarray, t: np.ndarray, common: np.ndarray) -> np.ndarray:
     bad = ~_apart(s, t, common.any(axis=1))
     bad[bad] = ~_apart(t[bad], s[bad], common[bad].any(axis=2))
     shared = common.sum(axis=(1, 2))
-    for count in (0, 1, 2):
-        rows = np.flatnonzero(bad & (shared == count))
-        if len(rows):
-            bad[rows] = _MEET[count](s[rows], t[rows], common[rows])
+    for some, meet in ((shared < 2, _sides_meet), (shared == 2, _meet_at_edge)):
+        rows = np.flatnonzero(bad & some)
+        bad[rows] = meet(s[rows], t[rows], common[rows])
     return bad
 
 
@@ -179,22 +178,14 @@ def _apart(s, t, shared):
     return (above | below) & ~shared.all(axis=1)
 
 
-def _meet_apart(s, t, common):
+def _sides_meet(s, t, common):
+    # What they share is convex. So it reaches from a common vertex to a side opposite it.
     bad = np.zeros(len(s), dtype=bool)
-    for first, second in ((s, t), (t, s)):
-        for i in range(3):
-            rows = np.flatnonzero(~bad)
-            bad[rows] = segment_meets_triangle(first[rows][:, (i, (i + 1) % 3)], second[rows])
+    for first, second, shared in ((s, t, common.any(axis=2)), (t, s, common.any(axis=1))):
+        for i, k in ((0, 1), (1, 2), (2, 0)):
+            rows = np.flatnonzero(~bad & ~shared[:, i] & ~shared[:, k])
+            bad[rows] = segment_meets_triangle(first[rows][:, (i, k)], second[rows])
     return bad
-
-
-def _meet_at_vertex(s, t, common):
-    # What they share is convex, so it reaches from the common vertex to an edge opposite it.
-    k = np.arange(len(s))
-    i, j = common.any(axis=2).argmax(axis=1), common.any(axis=1).argmax(axis=1)
-    far_s = np.stack([s[k, (i + 1) % 3], s[k, (i + 2) % 3]], axis=1)
-    far_t = np.stack([t[k, (j + 1) % 3], t[k, (j + 2) % 3]], axis=1)
-    return segment_meets_triangle(far_s, t) | segment_meets_triangle(far_t, s)
 
 
 def _meet_at_edge(s, t, common):
@@ -205,9 +196,6 @@ def _meet_at_edge(s, t, common):
     turn_s = shadow_signs(np.concatenate([edge, s[k, i][:, None]], axis=1))
     turn_t = shadow_signs(np.concatenate([edge, t[k, j][:, None]], axis=1))
     return (turn_s * turn_t > 0).any(axis=1)
-
-
-_MEET = {0: _meet_apart, 1: _meet_at_vertex, 2: _meet_at_edge}
 
 
 def nearest_on_triangles(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
