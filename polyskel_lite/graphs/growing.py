@@ -11,7 +11,7 @@ from ..errors import TessellationError
 from ..exact import whole_numbers
 from ..progress import Progress
 from .insertion import DEAD, ROWS, TWICE, loops
-from .tessellation import OPPOSITE, Tessellation
+from .tessellation import Tessellation
 
 #: From so many points on, compiling pays; from so many on, it pays to look whether that was done before.
 COMPILE_FROM, LOOK_FROM = 2_000, 200
@@ -162,10 +162,16 @@ class Growing:
         [[-1, -1, -1]]
         """
         table, across = self._rows(self._table), self._rows(self._across)
-        solid = (table.T.copy() >= 0).all(axis=0)
+        solid = table.min(axis=1) >= 0
+        if self.compiled:
+            out = np.empty((2, np.count_nonzero(solid), self.dimension + 1), dtype=np.int64)
+            room = self._new(len(self.points) + 1, 0), self._new(len(table), 0)
+            self._loops.collect(
+                len(table), self._table, self._across, self._order.astype(np.int32), *room, *out
+            )
+            return out[0], out[1]
         number = np.where(solid, np.cumsum(solid) - 1, -1)
-        rows = np.flatnonzero(solid)
-        table, across = self._order[np.take(table, rows, axis=0)], number[np.take(across, rows, axis=0)]
+        table, across = self._order[table[solid]], number[across[solid]]
         if self.dimension == 3:  # `turn_3d` calls those positive that the library calls negative
             table, across = table[:, [1, 0, 2, 3]], across[:, [1, 0, 2, 3]]
         return canonical(table, across)
@@ -236,11 +242,14 @@ def _exact(points) -> bool:
     return bool((np.ldexp(np.ldexp(points, -exponent), exponent) == points).all())
 
 
-# Even permutations that bring corner i to the front, in space (4 i + j) corner j to the second place as well.
-_TURNS = {3: np.column_stack([np.arange(3), OPPOSITE[3]]), 4: np.zeros((16, 4), dtype=np.int64)}
-for _i, _others in enumerate(OPPOSITE[4]):
-    for _k, _j in enumerate(_others):
-        _TURNS[4][4 * _i + _j] = _i, *np.roll(_others, -_k)
+# Even permutations that bring a corner to the front, then the least of the other three to the second place.
+_TURNS = {
+    3: [np.array([(0, 1, 2), (1, 2, 0), (2, 0, 1)])],
+    4: [
+        np.array([(0, 1, 2, 3), (1, 0, 3, 2), (2, 0, 1, 3), (3, 0, 2, 1)]),
+        np.array([(0, 1, 2, 3), (0, 2, 3, 1), (0, 3, 1, 2)]),
+    ],
+}
 
 
 def canonical(simplices: np.ndarray, neighbors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -251,23 +260,13 @@ def canonical(simplices: np.ndarray, neighbors: np.ndarray) -> tuple[np.ndarray,
     >>> canonical(np.array([[3, 1, 2], [1, 0, 2]]), np.array([[1, -1, -1], [-1, 0, -1]]))[0].tolist()
     [[0, 2, 1], [1, 2, 3]]
     """
-    (t, size), n = simplices.shape, int(simplices.max()) + 1
-    turn = simplices.argmin(axis=1)
-    if size == 4:
-        rest = simplices.copy()
-        rest[np.arange(t), turn] = n
-        turn = 4 * turn + rest.argmin(axis=1)
-    place = np.take(_TURNS[size], turn, axis=0) + size * np.arange(t)[:, None]
-    simplices = np.take(simplices, place)
-    # One key of three vertices is quick to sort, and no more than two simplices share these: a facet.
-    key = (simplices[:, 0] * n + simplices[:, 1]) * n + simplices[:, 2]
-    order = np.argsort(key)
-    first = np.flatnonzero(np.diff(np.take(key, order)) == 0)
-    first = first[simplices[order[first], -1] > simplices[order[first + 1], -1]]
-    order[first], order[first + 1] = order[first + 1], order[first]
-    new = np.full(t + 1, -1)
-    new[order] = np.arange(t)
-    return np.take(simplices, order, axis=0), new[np.take(neighbors, np.take(place, order, axis=0))]
+    size = simplices.shape[1]
+    for k, turns in enumerate(_TURNS[size]):
+        turn = turns[simplices[:, k:].argmin(axis=1)]
+        simplices, neighbors = (np.take_along_axis(array, turn, axis=1) for array in (simplices, neighbors))
+    order = np.lexsort(simplices.T[::-1])
+    new = np.append(np.argsort(order), -1)
+    return simplices[order], new[neighbors[order]]
 
 
 def _local_order(points: np.ndarray) -> np.ndarray:

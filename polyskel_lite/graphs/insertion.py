@@ -320,3 +320,66 @@ def insert(P, W, R, start, end, T, A, mark, free, state):
         state[LAST] = last
         state[MARK] = stamp
     return end
+
+
+@loops(f"boolean(int64[:,::1], int64, {_INTS})")
+def later(simplices, at, row):
+    """Whether a row comes after another one."""
+    for i in range(M):
+        if simplices[at, i] != row[i]:
+            return simplices[at, i] > row[i]
+    return False
+
+
+@loops(f"void(int64, {_INTS}, {_INTS}, {_INTS}, {_INTS}, {_INTS}, int64[:,::1], int64[:,::1])")
+def collect(rows, T, A, labels, begin, number, simplices, neighbors):
+    """Simplices by their labels, sorted as `triangulation.canonical` does: buckets by the least label."""
+    for t in range(rows):
+        number[t] = -1
+        low = labels[T[M * t]] if T[M * t] >= 0 else -1
+        for i in range(1, M):
+            v = labels[T[M * t + i]] if T[M * t + i] >= 0 else -1
+            low = v if v < low else low
+        if low >= 0:
+            number[t] = low
+            begin[low + 1] += 1
+    for v in range(1, len(begin)):
+        begin[v] += begin[v - 1]
+    filled = begin.copy()
+    origin = integers(begin[-1], 0)
+    row = integers(M, 0)
+    for t in range(rows):
+        if number[t] < 0:
+            continue
+        odd = M == 4  # `turn_3d` calls those positive that the library calls negative
+        for i in range(M):
+            v = labels[T[M * t + i]]
+            j = i
+            while j > 0 and row[j - 1] > v:
+                row[j] = row[j - 1]
+                j -= 1
+                odd = not odd
+            row[j] = v
+        if odd:
+            row[M - 2], row[M - 1] = row[M - 1], row[M - 2]
+        at = filled[row[0]]
+        filled[row[0]] += 1
+        while at > begin[row[0]] and later(simplices, at - 1, row):
+            for i in range(M):
+                simplices[at, i] = simplices[at - 1, i]
+            origin[at] = origin[at - 1]
+            at -= 1
+        for i in range(M):
+            simplices[at, i] = row[i]
+        origin[at] = t
+    for at in range(len(origin)):
+        number[origin[at]] = at
+    for t in range(rows):
+        at = number[t]
+        if at < 0:
+            continue
+        for i in range(M):
+            v = labels[T[M * t + i]]
+            for j in range(M):
+                if simplices[at, j] == v:
+                    neighbors[at, j] = number[A[M * t + i]]
