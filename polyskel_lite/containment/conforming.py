@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
 from ..errors import DuplicatePointError, InputError, TessellationError
-from ..exact import in_gabriel_ball, overlapping_pairs, point_segment_distance
+from ..exact import facet_distance, in_gabriel_ball, overlapping_pairs
 from ..graphs import (
     OPPOSITE,
     Change,
@@ -22,7 +22,7 @@ from ..graphs import (
     ordinary,
     preferring,
 )
-from ..shapes import Shape, check_shape
+from ..shapes import Shape, check_shape, edge_keys
 from .conforming_solids import conform_solid
 
 _GRAPHS = ("delaunay", "gabriel")
@@ -285,14 +285,11 @@ def _update(there: np.ndarray, points: np.ndarray, facets: np.ndarray, change: C
     solid, came = change.gone.min(axis=1) >= 0, change.come.min(axis=1) >= 0
     touched[change.gone[solid]] = touched[change.come[came]] = True
     rows = np.flatnonzero(touched[facets].all(axis=1))
-
-    def keys(edges):
-        return np.sort(edges, axis=1) @ (len(points), 1)
-
-    key = keys(facets[rows])
-    lost = np.isin(key, keys(change.gone[solid][:, OPPOSITE[3]].reshape(-1, 2)))
+    n = len(points)
+    key = edge_keys(facets[rows], n)
+    lost = np.isin(key, edge_keys(change.gone[solid][:, OPPOSITE[3]].reshape(-1, 2), n))
     there[rows[lost]] = False
-    edge = keys(change.come[came][:, OPPOSITE[3]].reshape(-1, 2))
+    edge = edge_keys(change.come[came][:, OPPOSITE[3]].reshape(-1, 2), n)
     order = np.argsort(edge)
     at = order[np.searchsorted(edge, key, sorter=order).clip(max=len(edge) - 1)]
     found = edge[at] == key
@@ -345,7 +342,7 @@ def _distances(corners: np.ndarray, points: np.ndarray, facets: np.ndarray) -> n
     for i, j in overlapping_pairs(*boxes):
         other = (facets[j] != corners[i, None]).all(axis=1)
         i, j = i[other], j[other]
-        np.minimum.at(nearest, i, point_segment_distance(place[i], ends[j]))
+        np.minimum.at(nearest, i, facet_distance(place[i], ends[j]))
     return nearest / 3
 
 

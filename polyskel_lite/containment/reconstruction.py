@@ -6,7 +6,7 @@ import numpy as np
 
 from ..checks import near
 from ..errors import InputError, ReconstructionError
-from ..exact import occurrences
+from ..exact import occurrences, spread_out
 from ..graphs import as_tessellation, gabriel
 from ..shapes import Shape
 
@@ -60,13 +60,11 @@ def reconstruct_curve(points) -> Shape:
     order = np.argsort(lengths, kind="stable")
     edges, lengths = edges[order], lengths[order]
     # The length at which each sample gets its second edge; the longest of these is needed for all.
+    ends = edges.ravel()
+    rows = np.argsort(ends, kind="stable")  # of one sample, shorter edges stay before longer ones
+    rank = spread_out(occurrences(ends, len(points)))[1]
     second = np.full(len(points), np.inf)
-    degree = np.zeros(len(points), dtype=np.int64)
-    for (a, b), length in zip(edges.tolist(), lengths.tolist(), strict=True):
-        for vertex in (a, b):
-            degree[vertex] += 1
-            if degree[vertex] == 2:
-                second[vertex] = length
+    second[ends[rows[rank == 1]]] = lengths[rows[rank == 1] // 2]
     needed = second.max()
     if not np.isfinite(needed):
         _refuse(points, int(np.argmax(second)), "has fewer than two Gabriel neighbours")

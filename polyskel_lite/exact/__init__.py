@@ -1,39 +1,19 @@
 """Signs and counts that never round: where a point lies, what meets what, what is connected.
 
 Floats with an error bound decide nearly everything, whole numbers and fractions the rest. In the room:
-predicates (orientation, in-ball and Gabriel tests), segments, triangles, boxes that overlap, rational
-points, polygons and rings around edges, Betti numbers, rows of small whole numbers.
+predicates (orientation, in-ball and Gabriel tests), segments, triangles, regions, boxes that overlap,
+fractions, polygons and rings around edges, Betti numbers, rows of small whole numbers.
 """
 
-from .arrays import unique_rows
-from .boxes import overlapping_pairs
+from .arrays import spread_out, unique_rows
+from .boxes import near_pairs, octave_pairs, octaves, overlapping_pairs
 from .nearest import facet_distance, nearest_facets, nearest_on_facets
 from .polygons import Polygons, dual_polygons, edge_rings
-from .predicates import as_integers, in_ball, in_gabriel_ball, orientation
-from .rational import (
-    between,
-    circumcenter_terms,
-    clip_rational,
-    dot,
-    exact,
-    locate_rational,
-    minus,
-    normal_of,
-    rational_circumcenter,
-)
-from .segments import (
-    first_meeting,
-    locate,
-    nearest_on_segments,
-    odd_around,
-    point_segment_distance,
-)
+from .predicates import as_integers, fractions, in_ball, in_gabriel_ball, orientation
+from .rational import circumcenter_terms, clip_rational, normals_of, rational_circumcenter
+from .regions import locate, odd_around
+from .segments import first_meeting, nearest_on_segments
 from .signs import flat_turn, in_circle, in_sphere, turn_2d, turn_3d, whole_numbers
 from .signs import loops as sign_loops
-from .topology import betti_numbers, components, euler_characteristic, occurrences
-from .triangles import (
-    locate_in_mesh,
-    meeting_faces,
-    point_triangle_distance,
-    shadow_signs,
-)
+from .topology import betti_numbers, components, occurrences
+from .triangles import meeting_faces, shadow_signs

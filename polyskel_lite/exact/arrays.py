@@ -1,4 +1,4 @@
-"""Rows of small whole numbers, sorted and without doubles."""
+"""Rows of small whole numbers, sorted and without doubles, and groups of rows."""
 
 from __future__ import annotations
 
@@ -29,3 +29,16 @@ def unique_rows(rows: np.ndarray, bound: int) -> tuple[np.ndarray, np.ndarray]:
     for c in range(columns - 1, -1, -1):
         key, found[:, c] = np.divmod(key, bound)
     return found, which.reshape(-1)
+
+
+def spread_out(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For groups of given sizes, member by member: its group, and its number in the group from 0.
+
+    Examples
+    --------
+    >>> group, number = spread_out(np.array([2, 0, 3]))
+    >>> group.tolist(), number.tolist()
+    ([0, 0, 2, 2, 2], [0, 1, 0, 1, 2])
+    """
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    return group, np.arange(len(group)) - np.repeat(np.cumsum(sizes) - sizes, sizes)

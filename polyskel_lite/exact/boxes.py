@@ -1,12 +1,74 @@
-"""Which boxes of one set overlap: a grid for the many small ones, a sweep for the few large ones."""
+"""Which boxes overlap, and which places are near each other: by a sweep, or by trees of similar sizes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 _CHUNK = 2_000_000  # pairs looked at together: bounds the memory, not the result
+
+
+def octaves(sizes: np.ndarray) -> list[np.ndarray]:
+    """The rows in groups whose sizes differ by less than a factor of two, to share a search radius.
+
+    Examples
+    --------
+    >>> [rows.tolist() for rows in octaves(np.array([1.0, 5, 1.5, 4]))]
+    [[0, 2], [1, 3]]
+    """
+    octave = np.frexp(sizes)[1]
+    return [np.flatnonzero(octave == value) for value in np.unique(octave)]
+
+
+def octave_pairs(places: np.ndarray, reach: np.ndarray) -> Iterator[tuple]:
+    """Every two groups of `octaves` with their trees, and the distance within which their reaches may meet.
+
+    Examples
+    --------
+    >>> pairs = octave_pairs(np.zeros((2, 2)), np.array([1.0, 2]))
+    >>> [(a.tolist(), b.tolist(), float(d)) for a, _, b, _, d in pairs]
+    [([0], [0], 2.0), ([1], [0], 3.0), ([1], [1], 4.0)]
+    """
+    groups = [(rows, cKDTree(places[rows]), reach[rows].max()) for rows in octaves(reach)]
+    for n, (a, tree, far) in enumerate(groups):
+        for b, other, wide in groups[: n + 1]:
+            yield a, tree, b, other, far + wide
+
+
+def near_pairs(places: np.ndarray, reach: np.ndarray, p: float = 2.0) -> Iterator[tuple[np.ndarray, ...]]:
+    """Yield i < j and their distance, in chunks, of all places not farther apart than their reaches.
+
+    Some pairs that are a little farther apart come as well: a tree wants one search radius. The reaches in
+    one tree differ by less than a factor of two, so that these are few, however unequal the reaches are.
+
+    Parameters
+    ----------
+    places : (k, N) float array
+    reach : (k,) float array
+    p : float
+        Of the norm: 2, or infinity for the largest difference of coordinates.
+
+    Examples
+    --------
+    >>> places = np.array([(0.0, 0), (1, 0), (9, 0)])
+    >>> [[a.tolist() for a in chunk] for chunk in near_pairs(places, np.full(3, 0.5))]
+    [[[0], [1], [1.0]]]
+    """
+    slack = 1e-14 * np.abs(places).max(initial=0.0)  # some ten roundings
+    for a, tree, b, other, within in octave_pairs(places, reach):
+        within = within * (1 + 1e-9) + slack
+        count = len(a) * len(b)
+        if count > _CHUNK:  # some of them tell about how many there are
+            some = places[a[:: 1 + len(a) // 256]]
+            count = other.query_ball_point(some, within, p=p, return_length=True).mean() * len(a)
+        for part in np.array_split(a, 1 + int(count) // _CHUNK):
+            tree = tree if len(part) == len(a) else cKDTree(places[part])
+            near = tree.sparse_distance_matrix(other, within, p=p, output_type="ndarray")
+            i, j = part[near["i"]], b[near["j"]]
+            once = (i < j) | (a is not b)  # within one tree each pair is found from both sides
+            yield np.minimum(i, j)[once], np.maximum(i, j)[once], near["v"][once]
 
 
 def self_overlaps(low: np.ndarray, high: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -14,7 +76,7 @@ def self_overlaps(low: np.ndarray, high: np.ndarray) -> Iterator[tuple[np.ndarra
 
     Parameters
     ----------
-    low, high : (m, 3) float arrays
+    low, high : (m, d) float arrays
 
     Notes
     -----
@@ -27,55 +89,9 @@ def self_overlaps(low: np.ndarray, high: np.ndarray) -> Iterator[tuple[np.ndarra
     >>> sorted((int(i), int(j)) for a, b in self_overlaps(low, low + size) for i, j in zip(a, b))
     [(0, 1), (0, 3), (1, 3), (2, 3)]
     """
-    if len(low) < 2:
-        return
-    extent = (high - low).max(axis=1)
-    origin, span = low.min(axis=0), float(np.ptp(np.concatenate([low, high]), axis=0).max())
-    cell = max(2 * float(np.median(extent)), span / 2**20)
-    large = np.flatnonzero(extent > 4 * cell)
-    for a, b in overlapping_pairs(low[large], high[large], low, high):
-        i = large[a]
-        # Two large ones come twice.
-        once = (i < b) | ~np.isin(b, large)
-        once &= i != b
-        yield np.minimum(i, b)[once], np.maximum(i, b)[once]
-    small = np.setdiff1d(np.arange(len(low)), large)
-    if len(small) > 1 and cell > 0:
-        first = ((low[small] - origin) / cell).astype(np.int64)
-        last = ((high[small] - origin) / cell).astype(np.int64)
-        for i, j in _in_one_cell(first, last):
-            a, b = small[i], small[j]
-            keep = ((low[a] <= high[b]) & (low[b] <= high[a])).all(axis=1)
-            yield np.minimum(a, b)[keep], np.maximum(a, b)[keep]
-
-
-def _in_one_cell(first: np.ndarray, last: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Pairs of boxes with a common cell, from the first and last cell of each box on the three axes."""
-    counts = last - first + 1
-    number = counts.prod(axis=1).astype(np.intp)
-    box = np.repeat(np.arange(len(first)), number)
-    rank = np.arange(number.sum()) - np.repeat(np.cumsum(number) - number, number)
-    cells = np.empty((len(box), 3), dtype=np.int64)
-    for axis in range(3):
-        cells[:, axis] = first[box, axis] + rank % counts[box, axis]
-        rank //= counts[box, axis]
-    size = last.max(axis=0) + 1
-    key = (cells[:, 0] * size[1] + cells[:, 1]) * size[2] + cells[:, 2]
-    order = np.argsort(key, kind="stable")
-    key, box, cells = key[order], box[order], cells[order]
-    ends = np.searchsorted(key, key, side="right")
-    later = ends - np.arange(len(key)) - 1
-    total = np.concatenate([[0], np.cumsum(later)])
-    begin = 0
-    while begin < len(key):
-        end = max(begin + 1, int(np.searchsorted(total, total[begin] + _CHUNK, side="right")) - 1)
-        count = later[begin:end]
-        a = np.repeat(np.arange(begin, end), count)
-        b = a + 1 + np.arange(len(a)) - np.repeat(np.cumsum(count) - count, count)
-        # Only in the lowest cell that both are in.
-        lowest = (np.maximum(first[box[a]], first[box[b]]) == cells[a]).all(axis=1)
-        yield box[a[lowest]], box[b[lowest]]
-        begin = end
+    for i, j, _ in near_pairs(low / 2 + high / 2, (high / 2 - low / 2).max(axis=1), p=np.inf):
+        keep = ((low[i] <= high[j]) & (low[j] <= high[i])).all(axis=1)
+        yield i[keep], j[keep]
 
 
 def overlapping_pairs(

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..checks import as_indices, shown
 from ..errors import InputError
-from .arrays import unique_rows
+from .arrays import spread_out, unique_rows
 
 
 class Polygons(Sequence):
@@ -79,9 +79,9 @@ class Polygons(Sequence):
         >>> Polygons.of([[4, 5, 6], [0, 1, 2, 3]]).triangles().tolist()
         [[4, 5, 6], [0, 1, 2], [0, 2, 3]]
         """
-        count = self.sizes - 2
-        first = np.repeat(self._ends - self.sizes, count)
-        along = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+        polygon, along = spread_out(self.sizes - 2)
+        first = (self._ends - self.sizes)[polygon]
+        along += first + 1
         return self.corners[np.column_stack([first, along, along + 1])]
 
     def __getitem__(self, k):
@@ -134,18 +134,19 @@ def dual_polygons(simplices: np.ndarray, neighbors: np.ndarray, number: np.ndarr
         following[np.take_along_axis(cut[kept], leave, axis=1)] = -1
     edge = (np.minimum(a, b) * (simplices.max() + 1) + np.maximum(a, b)).ravel()
     edge, owner, following = _surrounded(edge, np.repeat(np.arange(len(kept)), 6), following.ravel())
-    position = _positions(edge, owner, following, len(kept))
+    # The record of the same edge in the next tetrahedron.
+    position = np.searchsorted(edge * len(kept) + owner, edge * len(kept) + following)
     first = np.flatnonzero(np.diff(edge, prepend=-1))
-    begin, corners = first, np.empty(len(edge), dtype=np.int64)
-    length = np.zeros(len(first), dtype=np.intp)
+    corners, length = np.empty(len(edge), dtype=np.int64), np.zeros(len(first), dtype=np.intp)
     # Step around all edges at once, each from its first tetrahedron.
     at, active = first.copy(), np.arange(len(first))
     while len(active):
-        corners[begin[active] + length[active]] = number[kept[owner[at[active]]]]
+        corners[first[active] + length[active]] = number[kept[owner[at[active]]]]
         length[active] += 1
         at[active] = position[at[active]]
         active = active[at[active] != first[active]]
-    return _compact(corners, begin, length)
+    polygon, place = spread_out(length)
+    return Polygons(corners[first[polygon] + place], length)
 
 
 def _surrounded(edge, owner, following):
@@ -161,19 +162,6 @@ def _surrounded(edge, owner, following):
     # Edge numbers are small, so that both fit into one key of 63 bits: sorting one is many times faster.
     order = np.argsort(edge * (owner.max(initial=0) + 1) + owner)
     return edge, owner[order], following[order]
-
-
-def _positions(edge, owner, following, span):
-    """Index of the record (same edge, next tetrahedron) of each record."""
-    return np.searchsorted(edge * span + owner, edge * span + following)
-
-
-def _compact(corners, begin, length) -> Polygons:
-    keep = np.zeros(len(corners), dtype=bool)
-    keep[
-        np.repeat(begin, length) + np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
-    ] = True
-    return Polygons(corners[keep], length)
 
 
 _PAIRS = list(combinations(range(4), 2))

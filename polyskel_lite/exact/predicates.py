@@ -8,6 +8,8 @@ is evaluated again on integers, which Python computes without rounding. So every
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 
 from ..errors import InputError
@@ -40,6 +42,17 @@ def as_integers(*arrays: np.ndarray) -> list[np.ndarray]:
         part.reshape(array.shape)
         for part, array in zip(np.split(flat, np.cumsum([a.size for a in arrays])[:-1]), arrays, strict=True)
     ]
+
+
+def fractions(array) -> np.ndarray:
+    """The same floats as fractions: an array of ``object`` dtype, with which NumPy computes without rounding.
+
+    Examples
+    --------
+    >>> fractions([0.5, 3]).tolist()
+    [Fraction(1, 2), Fraction(3, 1)]
+    """
+    return np.frompyfunc(Fraction, 1, 1)(np.asarray(array, dtype=object))
 
 
 def _dot(u, v):
@@ -117,7 +130,7 @@ def orientation(simplices: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    simplices : (k, N+1, N) float array
+    simplices : (k, N+1, N) float array, or one of fractions (dtype object)
         In 2D +1 means counter-clockwise.
 
     Returns
@@ -139,7 +152,10 @@ def orientation(simplices: np.ndarray) -> np.ndarray:
     >>> orientation(np.array([[[0, 0], [0.1, 0.3], [1 / 3, 1.0]]]))
     array([1], dtype=int8)
     """
-    simplices = np.asarray(simplices, dtype=np.float64)
+    simplices = np.asarray(simplices)
+    if simplices.dtype == object:
+        return np.sign(_orientation(simplices[:, 1:] - simplices[:, :1], -1)).astype(np.int8)
+    simplices = simplices.astype(np.float64, copy=False)
     scaled, exact = _differences(simplices[:, 0], simplices[:, 1:])
     n = simplices.shape[2]
     return _signs(scaled, _orientation, n, 2 if n == 2 else 6, exact)

@@ -220,10 +220,8 @@ def turn_2d(P, W, a, b, c):
     right = (P[2 * a + 1] - P[2 * c + 1]) * (P[2 * b] - P[2 * c])
     value = left - right
     bound = 3.4e-16 * (abs(left) + abs(right)) + _TINY  # 3 u: Shewchuk's bound A
-    if value > bound:
-        return 1
-    if -value > bound:
-        return -1
+    if abs(value) > bound:
+        return 1 if value > 0 else -1
     return whole_turn(P, W, 2, a, b, c, c)
 
 
@@ -245,10 +243,8 @@ def turn_3d(P, W, a, b, c, d):
     mz = max(abs(az), abs(bz), abs(cz))
     # Six terms of mx my mz: k is 8 for four of them, 7 for the two last ones; 46 u, and second order.
     bound = 5.2e-15 * (mx * my * mz) + _TINY
-    if value > bound:
-        return 1
-    if -value > bound:
-        return -1
+    if abs(value) > bound:
+        return 1 if value > 0 else -1
     return whole_turn(P, W, 3, a, b, c, d)
 
 
@@ -273,10 +269,8 @@ def in_circle(P, W, a, b, c, e):
     value = al * (p1 - q1) + bl * (p2 - q2) + cl * (p3 - q3)
     size = al * (abs(p1) + abs(q1)) + bl * (abs(p2) + abs(q2)) + cl * (abs(p3) + abs(q3))
     bound = 1.2e-15 * size + _TINY  # 10 u: Shewchuk's bound A
-    if value > bound:
-        return 1
-    if -value > bound:
-        return -1
+    if abs(value) > bound:
+        return 1 if value > 0 else -1
     return whole_ball(P, W, 2, a, b, c, e, e)
 
 
@@ -318,8 +312,6 @@ def in_sphere(P, W, a, b, c, d, e):
     mz = max(abs(az), abs(bz), abs(cz), abs(dz))
     # 24 terms of mx my mz times the largest lift: k is 8 for a minor, 5 for a lift, 3 more: 384 u = 4.3e-14.
     bound = 4.5e-14 * (mx * my * mz * max(al, bl, cl, dl)) + _TINY
-    if value > bound:
-        return 1
-    if -value > bound:
-        return -1
+    if abs(value) > bound:
+        return 1 if value > 0 else -1
     return whole_ball(P, W, 3, a, b, c, d, e)

@@ -46,17 +46,6 @@ def occurrences(index: np.ndarray, n: int) -> np.ndarray:
     return np.bincount(np.asarray(index).ravel().astype(np.intp, copy=False), minlength=n)
 
 
-def euler_characteristic(n: int, edges: Sequence, polygons: Sequence = ()) -> int:
-    """Vertices minus edges plus polygons.
-
-    Examples
-    --------
-    >>> euler_characteristic(3, [(0, 1), (1, 2), (2, 0)])
-    0
-    """
-    return n - len(edges) + len(polygons)
-
-
 def betti_numbers(n: int, edges: np.ndarray, polygons: Sequence[np.ndarray] | None = None) -> tuple[int, ...]:
     """Betti numbers (b0, b1), or (b0, b1, b2) if polygons are given, over the field of two elements.
 
@@ -90,8 +79,8 @@ def betti_numbers(n: int, edges: np.ndarray, polygons: Sequence[np.ndarray] | No
     if polygons is None:
         return b0, len(edges) - n + b0
     b2 = len(polygons) - _boundary_rank(edges, polygons)
-    # The Euler characteristic is b0 - b1 + b2.
-    return b0, b0 + b2 - euler_characteristic(n, edges, polygons), b2
+    characteristic = n - len(edges) + len(polygons)  # b0 - b1 + b2
+    return b0, b0 + b2 - characteristic, b2
 
 
 def _boundary_rank(edges, polygons) -> int:

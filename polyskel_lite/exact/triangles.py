@@ -1,4 +1,4 @@
-"""Triangles in space: which ones meet, where a point lies in a closed mesh, how far away it is.
+"""Triangles in space: which ones meet, and which of their points is the nearest one.
 
 This is the floor below a `Shape` in 3D, as `segments` is in 2D: signs are exact, searching is a sweep
 of boxes.
@@ -6,15 +6,14 @@ of boxes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
-from .boxes import overlapping_pairs, overlaps_of, self_overlaps
+from .boxes import overlaps_of, self_overlaps
 from .predicates import orientation
-from .rational import PLANES
 from .segments import nearest_on_segments, segments_meet
 
+# The three coordinate planes: whatever is not flat in space has a shadow in one that is not flat.
+_PLANES = ((0, 1), (1, 2), (2, 0))
 _CHUNK = 500_000  # pairs of points and triangles looked at together: bounds the memory, not the result
 
 
@@ -37,32 +36,32 @@ def shadow_signs(triangles: np.ndarray) -> np.ndarray:
            [ 0,  0,  0]], dtype=int8)
     """
     triangles = np.asarray(triangles, dtype=np.float64)
-    return np.stack([orientation(triangles[:, :, plane]) for plane in PLANES], axis=1)
+    return np.stack([orientation(triangles[:, :, plane]) for plane in _PLANES], axis=1)
 
 
-def in_triangle(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
-    """Whether each query is in its closed triangle, exactly.
+def in_facet(facets: np.ndarray, queries: np.ndarray) -> np.ndarray:
+    """Whether each query of the line of a segment, or of the plane of a triangle, is in it; exactly.
 
     Parameters
     ----------
-    triangles : (k, 3, 3) float array
-        With an area.
-    queries : (k, 3) float array
+    facets : (k, N, N) float array, or one of fractions (dtype object)
+        Triangles with an area.
+    queries : (k, N) array of the same kind
 
     Examples
     --------
     >>> flat = np.array([[[0, 0, 0], [2, 0, 0], [0, 2, 0]]] * 3, dtype=float)
-    >>> in_triangle(flat, np.array([[1, 1, 0], [2, 2, 0], [0, 0, 1e-300]]))
-    array([ True, False, False])
+    >>> in_facet(flat, np.array([[1, 1, 0], [2, 2, 0], [0, 0, 0]]))
+    array([ True, False,  True])
     """
-    result = _side(triangles, queries) == 0
-    rows = np.flatnonzero(result)
-    for plane in PLANES:
-        # Seen from the query, the sides of the shadow all turn the same way (or not at all).
-        t, q = triangles[rows][:, :, plane], queries[rows][:, plane]
-        turns = _shadow_turns(t, q)
-        result[rows[(turns.max(axis=0) > 0) & (turns.min(axis=0) < 0)]] = False
-    return result
+    found = ((facets.min(axis=1) <= queries) & (queries <= facets.max(axis=1))).all(axis=1)
+    if queries.shape[1] == 3:
+        rows = np.flatnonzero(found)
+        for plane in _PLANES:
+            # Seen from the query, the sides of the shadow all turn the same way (or not at all).
+            turns = _shadow_turns(facets[rows][:, :, plane], queries[rows][:, plane])
+            found[rows[(turns.max(axis=0) > 0) & (turns.min(axis=0) < 0)]] = False
+    return found
 
 
 def _side(triangles, queries):
@@ -110,7 +109,7 @@ def segment_meets_triangle(segments: np.ndarray, triangles: np.ndarray) -> np.nd
 
 def _meets_in_plane(segments, triangles):
     """The same where the segment lies in the plane of the triangle: on a shadow that has an area."""
-    columns = np.array(PLANES)[(shadow_signs(triangles) != 0).argmax(axis=1)][:, None, :]
+    columns = np.array(_PLANES)[(shadow_signs(triangles) != 0).argmax(axis=1)][:, None, :]
     s, t = np.take_along_axis(segments, columns, axis=2), np.take_along_axis(triangles, columns, axis=2)
     turns = _shadow_turns(t, s[:, 0])
     result = (turns.min(axis=0) >= 0) | (turns.max(axis=0) <= 0)
@@ -161,10 +160,9 @@ def _meet(s: np.ndarray, t: np.ndarray, common: np.ndarray) -> np.ndarray:
     bad = ~_apart(s, t, common.any(axis=1))
     bad[bad] = ~_apart(t[bad], s[bad], common[bad].any(axis=2))
     shared = common.sum(axis=(1, 2))
-    for count in (0, 1, 2):
-        rows = np.flatnonzero(bad & (shared == count))
-        if len(rows):
-            bad[rows] = _MEET[count](s[rows], t[rows], common[rows])
+    for some, meet in ((shared < 2, _sides_meet), (shared == 2, _meet_at_edge)):
+        rows = np.flatnonzero(bad & some)
+        bad[rows] = meet(s[rows], t[rows], common[rows])
     return bad
 
 
@@ -180,22 +178,14 @@ def _apart(s, t, shared):
     return (above | below) & ~shared.all(axis=1)
 
 
-def _meet_apart(s, t, common):
+def _sides_meet(s, t, common):
+    # What they share is convex. So it reaches from a common vertex to a side opposite it.
     bad = np.zeros(len(s), dtype=bool)
-    for first, second in ((s, t), (t, s)):
-        for i in range(3):
-            rows = np.flatnonzero(~bad)
-            bad[rows] = segment_meets_triangle(first[rows][:, (i, (i + 1) % 3)], second[rows])
+    for first, second, shared in ((s, t, common.any(axis=2)), (t, s, common.any(axis=1))):
+        for i, k in ((0, 1), (1, 2), (2, 0)):
+            rows = np.flatnonzero(~bad & ~shared[:, i] & ~shared[:, k])
+            bad[rows] = segment_meets_triangle(first[rows][:, (i, k)], second[rows])
     return bad
-
-
-def _meet_at_vertex(s, t, common):
-    # What they share is convex, so it reaches from the common vertex to an edge opposite it.
-    k = np.arange(len(s))
-    i, j = common.any(axis=2).argmax(axis=1), common.any(axis=1).argmax(axis=1)
-    far_s = np.stack([s[k, (i + 1) % 3], s[k, (i + 2) % 3]], axis=1)
-    far_t = np.stack([t[k, (j + 1) % 3], t[k, (j + 2) % 3]], axis=1)
-    return segment_meets_triangle(far_s, t) | segment_meets_triangle(far_t, s)
 
 
 def _meet_at_edge(s, t, common):
@@ -206,78 +196,6 @@ def _meet_at_edge(s, t, common):
     turn_s = shadow_signs(np.concatenate([edge, s[k, i][:, None]], axis=1))
     turn_t = shadow_signs(np.concatenate([edge, t[k, j][:, None]], axis=1))
     return (turn_s * turn_t > 0).any(axis=1)
-
-
-_MEET = {0: _meet_apart, 1: _meet_at_vertex, 2: _meet_at_edge}
-
-
-def locate_in_mesh(triangles: np.ndarray, queries: np.ndarray) -> np.ndarray:
-    """Where each query lies in the region behind a closed mesh: +1 inside, 0 on the mesh, -1 outside; exact.
-
-    Parameters
-    ----------
-    triangles : (m, 3, 3) float array
-        Closed, without self-crossings; all turned outward, or all inward.
-    queries : (k, 3) float array
-
-    Returns
-    -------
-    (k,) int8 array
-
-    Notes
-    -----
-    The crossings of a ray upward are counted with their sign. Where the ray meets an edge or a vertex
-    it is shifted, in thought, by an infinitesimal (ε, ε²) in x and y, the same for all triangles
-    (simulation of simplicity), so that every ray crosses whole triangles only.
-
-    References
-    ----------
-    Edelsbrunner and Mücke, Simulation of simplicity, 1990.
-
-    Examples
-    --------
-    >>> points = np.array([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]], dtype=float)
-    >>> tetrahedron = points[[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]]
-    >>> locate_in_mesh(tetrahedron, np.array([[0.5, 0.5, 0.5], [1, 1, 1], [2, 2, 2]]))
-    array([ 1,  0, -1], dtype=int8)
-    """
-    queries = np.asarray(queries, dtype=np.float64)
-    winding, touching = np.zeros(len(queries), dtype=np.int64), np.zeros(len(queries), dtype=bool)
-    for i, j in _under(triangles, queries):
-        t, q = triangles[j], queries[i]
-        turns = np.stack([_shifted_turn(t[:, (c, (c + 1) % 3)], q) for c in range(3)])
-        hit = (turns == turns[0]).all(axis=0) & (turns[0] != 0)
-        side = np.zeros(len(i), dtype=np.int8)
-        inside_box = (t.min(axis=1) <= q).all(axis=1) & (q <= t.max(axis=1)).all(axis=1)
-        needed = hit | inside_box
-        side[needed] = _side(t[needed], q[needed])
-        on = np.flatnonzero(inside_box & (side == 0))
-        touching[i[on[in_triangle(t[on], q[on])]]] = True
-        # A shadow that turns left belongs to a triangle that looks up: a ray from below it leaves the region.
-        above = hit & (side == -turns[0])
-        np.add.at(winding, i[above], turns[0, above])
-    result = np.where(winding != 0, 1, -1).astype(np.int8)
-    result[touching] = 0
-    return result
-
-
-def _under(triangles: np.ndarray, queries: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Pairs of a query and a triangle over (or around) it, in chunks."""
-    low, high = triangles.min(axis=1), triangles.max(axis=1)
-    shadow = queries[:, :2]
-    for i, j in overlapping_pairs(shadow, shadow, low[:, :2], high[:, :2]):
-        above = high[j, 2] >= queries[i, 2]
-        i, j = i[above], j[above]
-        for begin in range(0, len(i), _CHUNK):
-            yield i[begin : begin + _CHUNK], j[begin : begin + _CHUNK]
-
-
-def _shifted_turn(sides, queries):
-    """On which side of each edge's shadow the query is once it is shifted by (ε, ε²)."""
-    a, b = sides[:, 0, :2], sides[:, 1, :2]
-    turn = orientation(np.stack([a, b, queries[:, :2]], axis=1))
-    turn = np.where(turn == 0, np.sign(a[:, 1] - b[:, 1]), turn)
-    return np.where(turn == 0, np.sign(b[:, 0] - a[:, 0]), turn).astype(np.int8)
 
 
 def nearest_on_triangles(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -301,15 +219,3 @@ def nearest_on_triangles(queries: np.ndarray, triangles: np.ndarray) -> np.ndarr
     height = ((queries - triangles[:, 0]) * normal).sum(axis=1)
     nearest[over] = queries[over] - (height[over] / square[over])[:, None] * normal[over]
     return nearest
-
-
-def point_triangle_distance(queries: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Distance from point to triangle, row by row.
-
-    Examples
-    --------
-    >>> floor = np.array([[[0, 0, 0], [4, 0, 0], [0, 4, 0]]], dtype=float)
-    >>> point_triangle_distance(np.array([[1.0, 1.0, 3.0]]), floor)
-    array([3.])
-    """
-    return np.linalg.norm(queries - nearest_on_triangles(queries, triangles), axis=1)

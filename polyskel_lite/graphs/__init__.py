@@ -8,13 +8,4 @@ from .cocircular import preferring
 from .delaunay_graph import as_tessellation, delaunay, grown_from
 from .gabriel_graph import gabriel, gabriel_mask
 from .growing import Change, compiled_wanted
-from .tessellation import (
-    OPPOSITE,
-    Tessellation,
-    circumballs,
-    corners_of,
-    facet_rows,
-    in_blocks,
-    moved_back,
-    ordinary,
-)
+from .tessellation import OPPOSITE, Tessellation, corners_of, facet_rows, in_blocks, moved_back, ordinary

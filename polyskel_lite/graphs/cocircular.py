@@ -13,7 +13,7 @@ import numpy as np
 
 from ..exact import components, in_ball, in_gabriel_ball, orientation
 from .growing import Growing, canonical
-from .tessellation import Tessellation, facet_rows
+from .tessellation import OPPOSITE, Tessellation, facet_rows
 
 
 def preferring(tessellation: Tessellation, facets: np.ndarray) -> Tessellation:
@@ -77,14 +77,19 @@ def with_segments(points: np.ndarray, simplices, neighbors, facets, missing):
 
 def _neighbors_of(triangles: np.ndarray) -> np.ndarray:
     """The triangle opposite each vertex, (t, 3), -1 at the border."""
-    ends = np.sort(triangles[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
-    key = ends @ (triangles.max() + 1, 1)
-    order = np.argsort(key)
-    pair = np.flatnonzero(key[order[1:]] == key[order[:-1]])
-    first, second = order[pair], order[pair + 1]
+    one, two = _twins(triangles)
     neighbors = np.full(triangles.size, -1)
-    neighbors[first], neighbors[second] = second // 3, first // 3
+    neighbors[one], neighbors[two] = two // 3, one // 3
     return neighbors.reshape(triangles.shape)
+
+
+def _twins(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners, as 3 f + i, opposite the sides that two faces share: of the one face and of the other."""
+    ends = np.sort(faces[:, OPPOSITE[3]].reshape(-1, 2), axis=1)
+    key = ends @ (faces.max() + 1, 1)
+    order = np.argsort(key, kind="stable")
+    pair = np.flatnonzero(key[order[1:]] == key[order[:-1]])
+    return order[pair], order[pair + 1]
 
 
 def _outline(triangles) -> list[int]:
@@ -126,13 +131,8 @@ def cone_ranks(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     >>> cone_ranks(cube, np.array([(1, 3, 5), (3, 7, 5)])).tolist()
     [0, 0, 0, -1, 0, 0, 0, 0]
     """
-    n = len(points)
-    sides = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    key = sides @ (n, 1)
-    order = np.argsort(key, kind="stable")
-    pair = np.flatnonzero(key[order[1:]] == key[order[:-1]])
-    first, second = order[pair] // 3, order[pair + 1] // 3
-    apex = faces[second].sum(axis=1) - sides[order[pair]].sum(axis=1)
+    one, two = _twins(faces)
+    first, second, apex = one // 3, two // 3, faces.ravel()[two]
     flat = orientation(points[np.column_stack([faces[first], apex])]) == 0
     first, second, apex = first[flat], second[flat], apex[flat]
     tie = in_gabriel_ball(points[faces[first]], points[apex]) == 0
@@ -147,7 +147,7 @@ def cone_ranks(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
         for vertex in set.union(*triangles):
             around.setdefault(vertex, []).append(polygon)
             unsuited[vertex] = unsuited.get(vertex, 0) + (vertex not in fans)
-    ranks = np.zeros(n, dtype=np.int64)
+    ranks = np.zeros(len(points), dtype=np.int64)
     place = np.lexsort(points.T[::-1]).argsort().tolist()
     ready = [(place[vertex], vertex) for vertex, count in unsuited.items() if not count]
     heapify(ready)

@@ -172,14 +172,7 @@ def walk(P, W, T, A, t, p):
             r = A[M * t + i]
             if r == came:
                 continue
-            if i == 0:
-                s = turn(P, W, p, b, c, d)
-            elif i == 1:
-                s = turn(P, W, a, p, c, d)
-            elif i == 2:
-                s = turn(P, W, a, b, p, d)
-            else:
-                s = turn(P, W, a, b, c, p)
+            s = turn(P, W, p if i == 0 else a, p if i == 1 else b, p if i == 2 else c, p if i == 3 else d)
             if s < 0:
                 came = t
                 t = r

@@ -104,7 +104,7 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: _circumballs(corners_of(scaled, rows)), np.arange(len(self.simplices)))
+        balls = in_blocks(lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices)
         return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
 
     @property
@@ -202,17 +202,15 @@ def _halves(facets, n):
     return facets[:, 0], facets[:, 1] if facets.shape[1] == 2 else facets[:, 1] * n + facets[:, 2]
 
 
-def corners_of(tessellation: Tessellation, rows=slice(None)) -> np.ndarray:
-    """The corners of simplices, (t, N+1, N), so that each coordinate of all corners is contiguous.
+def corners_of(points: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """The same as ``points[simplices]``, (t, N+1, N), so that each coordinate of all corners is contiguous.
 
     Examples
     --------
-    >>> from polyskel_lite import delaunay
-    >>> corners_of(delaunay([(0, 0), (1, 0), (0, 1)])).tolist()
+    >>> corners_of(np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]), np.array([(0, 1, 2)])).tolist()
     [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
     """
-    simplices = tessellation.simplices[rows].T.astype(np.intp, copy=False)
-    return np.take(tessellation.points.T, simplices, axis=1).transpose(2, 1, 0)
+    return np.take(points.T, simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
 
 
 def in_blocks(function, rows: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -266,26 +264,21 @@ def moved_back(tessellation: Tessellation, exponent: int, given: np.ndarray) -> 
     return Tessellation.trusted(points, tessellation.simplices, tessellation.neighbors)
 
 
-def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Circumcenters and circumradii of simplices with corners (t, N+1, N).
+def circumballs(simplices: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Circumcenters and circumradii of simplices with corners (t, N+1, N), and bounds on the centers' errors.
 
     Returns
     -------
     centers : (t, N) float array
         Infinite for flat simplices.
-    radii : (t,) float array
+    radii, errors : (t,) float arrays
 
     Examples
     --------
-    >>> centers, radii = circumballs(np.array([[[0.0, 0.0], [8.0, 0.0], [0.0, 6.0]]]))
+    >>> centers, radii, _ = circumballs(np.array([[[0.0, 0.0], [8.0, 0.0], [0.0, 6.0]]]))
     >>> centers.tolist(), radii.tolist()
     ([[4.0, 3.0]], [5.0])
     """
-    return _circumballs(np.asarray(simplices, dtype=np.float64))[:2]
-
-
-def _circumballs(simplices):
-    """Centers, radii, and a bound on the error of each center."""
     corners = simplices.transpose(2, 1, 0)  # of which, by `corners_of`, each coordinate is contiguous
     d = corners[:, 1:] - corners[:, :1]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore", under="ignore"):

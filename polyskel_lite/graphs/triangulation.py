@@ -8,7 +8,7 @@ from scipy.spatial import Delaunay, QhullError
 from ..errors import TessellationError
 from ..exact import in_ball, orientation
 from .growing import Growing, canonical, compiled_wanted
-from .tessellation import OPPOSITE
+from .tessellation import OPPOSITE, corners_of
 
 
 def triangulate(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, Growing | None]:
@@ -63,7 +63,7 @@ def _keep(simplices, neighbors, keep):
 
 def _orient(points, simplices, neighbors):
     """Drop flat simplices of the hull, layer by layer, and make the others positive."""
-    sign = orientation(_corners(points, simplices))
+    sign = orientation(corners_of(points, simplices))
     while len(simplices) and (peel := (sign == 0) & (neighbors < 0).any(axis=1)).any():
         simplices, neighbors = _keep(simplices, neighbors, ~peel)
         sign = sign[~peel]
@@ -86,7 +86,7 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, un
     used[simplices] = True
     if not used.all():
         return f"point {np.flatnonzero(~used)[0]} is not used"
-    if (orientation(_corners(points, simplices)) <= 0).any():
+    if (orientation(corners_of(points, simplices)) <= 0).any():
         return "a simplex is flat"
     size = simplices.shape[1]
     first, local = np.nonzero(neighbors >= 0)
@@ -99,7 +99,7 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, un
     if (neighbors[second, back] != first).any():
         return "neighbors disagree"
     apex = points[simplices[second, back]]
-    where = in_ball(_corners(points, simplices[first]), apex, positive=True).max(initial=-1)
+    where = in_ball(corners_of(points, simplices[first]), apex, positive=True).max(initial=-1)
     if where > 0:
         return "a sample is inside a Delaunay ball"
     if where == 0 and unique:
@@ -112,11 +112,6 @@ def problem(points: np.ndarray, simplices: np.ndarray, neighbors: np.ndarray, un
     if not _opposite(near, far).all():
         return "simplices overlap"
     return _hull_problem(points, simplices, neighbors, size)
-
-
-def _corners(points, simplices):
-    """The same as ``points[simplices]``, each coordinate contiguous as the predicates like it."""
-    return np.take(points.T, simplices.T.astype(np.intp, copy=False), axis=1).transpose(2, 1, 0)
 
 
 def _opposite(near, far):

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..checks import as_points
 from ..errors import InputError
+from ..shapes import only_in
 from .discs import Arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
@@ -118,7 +119,7 @@ class BallBoundary:
         >>> ball, np.degrees(start).round(), np.degrees(end).round()
         (array([0, 1]), array([  60., -120.]), array([300., 120.]))
         """
-        self._only(2, "arcs", "patches")
+        only_in(2, self, "arcs", "patches()", "polyballs")
         ball, start, end = self.union.boundary.arcs
         return Arcs(self.union.rows[ball], start, end)
 
@@ -150,7 +151,7 @@ class BallBoundary:
         >>> vertices.shape[1], triangles.shape[1], np.unique(ball).tolist()
         (3, 3, [0, 1])
         """
-        self._only(3, "patches", "arcs")
+        only_in(3, self, "patches", "arcs()", "polyballs")
         vertices, triangles, ball = patches(self.union, fineness)
         return self.from_unit(vertices + self.union.origin), triangles, self.union.rows[ball]
 
@@ -330,13 +331,5 @@ class BallBoundary:
         >>> round(Polyball([(0, 0, 0), (9, 0, 0)], [3, 3]).volume() / np.pi, 9)
         72.0
         """
-        self._only(3, "volume", "area")
+        only_in(3, self, "volume", "area()", "polyballs")
         return self._measure(volume(self.union), 3, "volume")
-
-    def _only(self, dimension: int, method: str, instead: str) -> None:
-        if self.dimension != dimension:
-            where = "discs of the plane" if dimension == 2 else "balls in space"
-            raise InputError(
-                f"Polyball.{method}() is for {where}, and these balls have {self.dimension} coordinates; "
-                f"use {instead}()."
-            )

@@ -1,8 +1,8 @@
 """Distance from points to the boundary of a union of balls, exact to rounding.
 
-In the plane all arcs are asked. In space, it is the distance to the nearest ball outside; inside, the nearest
-point of the boundary is straight ahead of a centre on a patch of its sphere, or straight ahead of the middle
-of a circle on one of its arcs, or the end of an arc. Arcs and spheres that are farther than the best point
+The nearest point of the boundary is straight ahead of the middle of a circle on one of its arcs, or the end
+of an arc. In space, it is the distance to the nearest ball outside; inside, the nearest point can be straight
+ahead of a centre on a patch of its sphere as well. Arcs and spheres that are farther than the best point
 found so far are never looked at.
 """
 
@@ -12,8 +12,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
+from ..exact import octaves, spread_out
 from .discs import TURN, Boundary
-from .pairs import octaves, rounding, spread_out
+from .pairs import rounding
 from .union import BallUnion
 
 _CHUNK = 400_000  # point-ball pairs looked at together: what fits a cache, not the result
@@ -45,7 +46,7 @@ def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
     [0.866, 1.0, 0.3, 1.0]
     """
     if not union.in_space:
-        return _to_plane_arcs(queries, union)
+        return _to_arcs(queries, union.boundary)
     distance = _to_balls(queries, union.centers, union.radii)
     # A point on many spheres that surround it is in no open ball, but inside the union all the same.
     believed = _BELIEVED * (np.abs(union.centers).max() + union.radii.max())
@@ -55,24 +56,6 @@ def distance_to_boundary(queries: np.ndarray, union: BallUnion) -> np.ndarray:
         best = _to_arcs(points, union.boundary)
         _to_patches(points, union, best)
         distance[inside] = best
-    return distance
-
-
-def _to_plane_arcs(points, union: BallUnion) -> np.ndarray:
-    """Distance to the nearest arc in the plane."""
-    circles, arcs = union.boundary.circles, union.boundary.arcs
-    ball, start, end = arcs
-    distance = cKDTree(circles.points(np.tile(ball, 2), np.append(start, end))).query(points)[0]
-    (x, y), middle = circles.centers[ball].T, (start + end) / 2
-    # A whole circle accepts every direction, whatever the rounding of cos(π).
-    reach = np.where(arcs.whole, -2.0, np.cos((end - start) / 2))
-    for rows in _chunks(len(points), len(ball)):
-        across, up = points[rows, None, 0] - x, points[rows, None, 1] - y
-        far = np.hypot(across, up)
-        # An arc's nearest point lies straight ahead of the centre if the arc reaches there, else at an end.
-        ahead = across * np.cos(middle) + up * np.sin(middle) >= far * reach
-        gap = np.where(ahead, np.abs(far - circles.radii[ball]), np.inf).min(axis=1)
-        distance[rows] = np.minimum(distance[rows], gap)
     return distance
 
 
@@ -90,6 +73,8 @@ def _chunks(count: int, width: int) -> list[slice]:
 
 def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     """Distance to the nearest arc, ends included; infinite if there is none."""
+    if not len(points):
+        return np.zeros(0)
     circles, arcs = boundary.circles, boundary.arcs
     row, start, end = arcs
     size = np.ceil((end - start) / _PIECE).astype(np.intp)
@@ -97,22 +82,30 @@ def _to_arcs(points, boundary: Boundary) -> np.ndarray:
     half = ((end - start) / size / 2)[arc]
     middles = circles.points(row[arc], start[arc] + (2 * number + 1) * half)
     ends = circles.points(np.tile(row, 2), np.concatenate([start, end]))
-    marks = cKDTree(np.concatenate([ends, boundary.corners, middles]))
-    best = marks.query(points)[0]
+    best = cKDTree(np.concatenate([ends, boundary.corners])).query(points)[0]
+
+    def straight_ahead(pairs):
+        """The nearest point of a circle is straight ahead of its middle; it counts if it is on the arc."""
+        point, found = pairs // len(row), pairs % len(row)
+        seen = points[point] - circles.centers[row[found]]
+        x, y, *z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
+        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
+        gap = np.hypot(z[0] if z else 0, np.hypot(x, y) - circles.radii[row[found]])
+        np.minimum.at(best, point[on], gap[on])
+
+    if len(points) * len(row) <= _CHUNK:
+        straight_ahead(np.arange(len(points) * len(row)))
+        return best
     reach = half * circles.radii[row[arc]]
+    bound = cKDTree(middles).query(points)[0]
     # One search radius for pieces of about the same length, so that short ones are not searched for in vain.
     for group in octaves(reach):
-        near = cKDTree(middles[group]).query_ball_point(points, best * (1 + 1e-9) + reach[group].max())
+        near = cKDTree(middles[group]).query_ball_point(
+            points, np.minimum(best, bound) * (1 + 1e-9) + reach[group].max()
+        )
         point = np.repeat(np.arange(len(points)), [len(found) for found in near])
         piece = group[np.concatenate([np.asarray(found, dtype=np.int64) for found in near])]
-        pairs = np.unique(point * len(row) + arc[piece])
-        point, found = pairs // len(row), pairs % len(row)
-        # The nearest point of the circle is straight ahead of its middle; it counts if it is on the arc.
-        seen = points[point] - circles.centers[row[found]]
-        x, y, z = np.einsum("mck,mk->cm", circles.frames[row[found]], seen)
-        on = arcs.whole[found] | ((np.arctan2(y, x) - start[found]) % TURN <= (end - start)[found])
-        gap = np.hypot(z, np.hypot(x, y) - circles.radii[row[found]])
-        np.minimum.at(best, point[on], gap[on])
+        straight_ahead(np.unique(point * len(row) + arc[piece]))
     return best
 
 

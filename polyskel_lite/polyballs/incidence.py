@@ -6,8 +6,8 @@ import numpy as np
 from scipy.sparse import coo_array, triu
 from scipy.spatial import cKDTree
 
-from ..exact import components, unique_rows
-from .pairs import ON, PRECISION, balls_near, believed, gaps, lengths, rounding, spread_out, units
+from ..exact import components, spread_out, unique_rows
+from .pairs import ON, PRECISION, balls_near, believed, gaps, lengths, rounding, units
 
 # As `ON`, a share of the distance from the origin: some ten roundings, as often amplified.
 _FAR = 1e-14

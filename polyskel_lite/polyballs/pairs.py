@@ -11,6 +11,8 @@ from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
 
+from ..exact import near_pairs, octave_pairs, octaves
+
 # A ball that sticks out of another one by less than this share of its radius is taken as part of
 # it: below, the crossings of the two spheres could be anywhere (error about 1e-16 / share).
 _SWALLOWED = 1e-10
@@ -46,45 +48,18 @@ def units(vectors: np.ndarray) -> np.ndarray:
     return vectors / lengths(vectors)[..., None]
 
 
-def spread_out(sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """For groups of given sizes, member by member: its group, and its number in the group from 0.
-
-    Examples
-    --------
-    >>> group, number = spread_out(np.array([2, 0, 3]))
-    >>> group.tolist(), number.tolist()
-    ([0, 0, 2, 2, 2], [0, 1, 0, 1, 2])
-    """
-    group = np.repeat(np.arange(len(sizes)), sizes)
-    return group, np.arange(len(group)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-
-
 def rounding(centers, radii, i, j) -> np.ndarray:
     """What the rounding of coordinates and radii may do to a distance between two balls."""
     size = np.abs(centers).max(axis=1) + radii
     return ROUNDING * (size[i] + size[j])
 
 
-def octaves(radii) -> list[np.ndarray]:
-    """The balls in groups whose radii differ by less than a factor of two, to share a search radius."""
-    octave = np.frexp(radii)[1]
-    return [np.flatnonzero(octave == value) for value in np.unique(octave)]
-
-
 def meeting_pairs(centers, radii) -> tuple[np.ndarray, np.ndarray]:
-    """All pairs i < j of balls that meet, and those that miss each other only by rounding.
-
-    A KD-tree wants one search radius. The radii in one tree differ by less than a factor of two, so
-    that few pairs too many are looked at, however unequal the balls are.
-    """
+    """All pairs i < j of balls that meet, and those that miss each other only by rounding."""
     found = []
-    for a, tree, b, other, reach in _octave_pairs(centers, radii):
-        near = tree.sparse_distance_matrix(other, reach * (1 + 1e-9), output_type="ndarray")
-        i, j = a[near["i"]], b[near["j"]]
-        meet = near["v"] <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
-        if tree is other:
-            meet &= i < j  # within one tree each pair is found from both sides
-        found.append(np.sort([i[meet], j[meet]], axis=0))
+    for i, j, away in near_pairs(centers, radii + ROUNDING * (np.abs(centers).max(axis=1) + radii)):
+        meet = away <= (radii[i] + radii[j]) * (1 + 1e-9) + rounding(centers, radii, i, j)
+        found.append(np.stack([i, j])[:, meet])
     return tuple(np.concatenate(found, axis=1))
 
 
@@ -103,14 +78,8 @@ def meeting_graph(centers, radii) -> csr_array:
 
 def pair_bound(centers, radii) -> int:
     """At most so many pairs of balls meet, counted with the largest radius of each factor of two."""
-    groups = _octave_pairs(centers, radii)
+    groups = octave_pairs(centers, radii)
     return sum(int(tree.count_neighbors(other, reach)) for _, tree, _, other, reach in groups)
-
-
-def _octave_pairs(centers, radii):
-    """Every two groups of `octaves`, with their trees and the distance within which their balls may meet."""
-    groups = [(group, cKDTree(centers[group]), radii[group].max()) for group in octaves(radii)]
-    return [(*g[:2], *h[:2], g[2] + h[2]) for n, g in enumerate(groups) for h in groups[: n + 1]]
 
 
 def balls_near(points, centers, radii, slack=0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -18,9 +18,9 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from ..checks import as_number
 from ..errors import InputError
-from ..exact import components
+from ..exact import components, spread_out
 from .discs import Boundary
-from .pairs import found_at, spread_out, units
+from .pairs import found_at, units
 from .union import BallUnion, Caps
 
 #: Triangles on all spheres together: one million take ten seconds, and no screen shows more.

@@ -28,8 +28,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..exact import spread_out
 from .discs import Arcs, Covers, uncovered
-from .pairs import frames, spread_out
+from .pairs import frames
 from .union import BallUnion, Caps
 
 _WHOLE = 4 * np.pi

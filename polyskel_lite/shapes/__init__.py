@@ -4,7 +4,8 @@ In the room: `Shape`, a closed region of the plane or of space with a checked bo
 meshes must be; samples at equal distances and how densely they cover a boundary.
 """
 
-from .density import FLOOR, SHARE
+from .boundary import only_in
+from .density import FLOOR, SHARE, local_width
 from .sampling import halved
 from .shape import Shape, check_shape
 from .splitting import edge_keys, independent, quads, split_edges

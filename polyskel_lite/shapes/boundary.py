@@ -12,8 +12,8 @@ from .rings import rings_of, turn_of
 from .sampling import covering_radius
 
 
-def only_in(dimension: int, thing, method: str, instead: str) -> None:
-    """Raise `InputError` if a method of a shape is not for its dimension.
+def only_in(dimension: int, thing, method: str, instead: str, kind: str = "shapes") -> None:
+    """Raise `InputError` if a method of a shape, or of a thing of another kind, is not for its dimension.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def only_in(dimension: int, thing, method: str, instead: str) -> None:
     if thing.dimension != dimension:
         where = "the plane" if dimension == 2 else "space"
         raise InputError(
-            f"{method}() is for shapes in {where}; this one is in {thing.dimension}D: use {instead}."
+            f"{method}() is for {kind} in {where}; this one is in {thing.dimension}D: use {instead}."
         )
 
 

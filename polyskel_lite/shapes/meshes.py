@@ -6,7 +6,7 @@ import numpy as np
 
 from ..checks import near
 from ..errors import ShapeError
-from ..exact import as_integers, components, locate_in_mesh, meeting_faces, occurrences, shadow_signs
+from ..exact import as_integers, components, locate, meeting_faces, occurrences, shadow_signs
 
 
 def check_mesh(points: np.ndarray, faces: np.ndarray, doubtful=None) -> None:
@@ -187,9 +187,8 @@ def turn_of_surface(triangles: np.ndarray) -> int:
     # Each of the 6 m products is off by a few units; far outside of that the sign is sure.
     if abs(volume) > 1e-13 * len(triangles) * size**3:
         return 1 if volume > 0 else -1
-    (a, b, c) = as_integers(triangles)[0].transpose(1, 2, 0)
-    exact = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-    exact = (exact + a[2] * (b[0] * c[1] - b[1] * c[0])).sum()
+    a, b, c = as_integers(triangles)[0].transpose(1, 0, 2)
+    exact = (a * np.cross(b, c)).sum()
     return (exact > 0) - (exact < 0)
 
 
@@ -210,7 +209,7 @@ def nesting_of_surfaces(points, faces, twins) -> tuple[np.ndarray, np.ndarray, n
         triangles = points[faces[label == k]]
         turn[k] = turn_of_surface(triangles)
         if count > 1:
-            inside = locate_in_mesh(triangles, first) > 0
+            inside = locate(triangles, first) > 0
             inside[k] = False
             depth += inside
     return label, depth, turn

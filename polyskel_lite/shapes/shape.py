@@ -11,7 +11,7 @@ import numpy as np
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
 from ..errors import InputError, PolyskelError, ShapeError, TessellationError
-from ..exact import locate, locate_in_mesh
+from ..exact import locate
 from ..files import read_file, trace, write_surface
 from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
 from .boundary import Boundary, only_in
@@ -296,7 +296,7 @@ class Shape(Boundary):
         array([ 1,  0, -1], dtype=int8)
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
-        return (locate if self.dimension == 2 else locate_in_mesh)(self.segments, queries)
+        return locate(self.segments, queries)
 
     def sample(self, n: int, start: float = 0.0) -> np.ndarray:
         """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling; 2D only).

@@ -26,7 +26,7 @@ _INTS, _FLOATS = "int64[::1]", "float64[::1]"
 
 @loops(
     f"int64(int64, int64, boolean, {_INTS}, {_INTS}, boolean[::1], {_INTS}, {_FLOATS}, {_FLOATS}, {_FLOATS}, "
-    f"{_FLOATS}, {_FLOATS}, int8[::1], {_INTS}, int64, int64)"
+    f"{_FLOATS}, {_INTS}, int64, int64)"
 )
 def remove_in_order(
     size,
@@ -37,16 +37,14 @@ def remove_in_order(
     alive,
     count,
     share,
-    measure,
-    alpha,
+    values,
     radii,
-    level,
-    kind,
+    keys,
     order,
     removed,
     stop,
 ):
-    """Remove simplices until none can go, or so many are gone; fills ``level``, ``kind`` and ``order``.
+    """Remove simplices until none can go, or so many are gone; fills ``keys`` and ``order``.
 
     It may be called again to go on: nothing is removed in another order.
 
@@ -63,16 +61,14 @@ def remove_in_order(
     alive : sequence of bool
         The simplices of the shape; changed.
     count : sequence of int
-        How many neighbours of each are alive; changed.
+        How many neighbours of each are alive, or were when it went; changed.
     share : sequence of float
         p(v): the boundary each simplex stands for; changed.
-    measure : flat sequence of float
-        Length or area of the facet opposite each corner.
-    alpha : flat sequence of float
-        Criterion of the six pairs of facets (surface rule only).
+    values : flat sequence of float
+        Length or area of the facet opposite each corner; for the surface rule the angles of its six pairs.
     radii : sequence of float
-    level, kind, order : sequences
-        Results: threshold at which each goes, how, and which one is the first, second, ... to go.
+    keys, order : sequences
+        Results: the criterion of each when it goes, and which one is the first, second, ... to go.
     removed, stop : int
         How many are gone, and how many shall be.
 
@@ -84,7 +80,6 @@ def remove_in_order(
     heap = [(0.0, 0.0, 0, 0)]
     heappop(heap)
     todo = [v for v in range(len(alive)) if alive[v]]
-    running = level[order[removed - 1]] if removed > 0 else -_INF
     while removed < stop:
         while len(todo) > 0:
             v = todo.pop()
@@ -99,7 +94,7 @@ def remove_in_order(
                         for i in range(size):  # the perimeter of A(v) has its inner side as well
                             n = neighbors[size * v + i]
                             if n >= 0 and alive[n]:
-                                p += measure[size * v + i]
+                                p += values[size * v + i]
                     key = p / radii[v]
                     if rule == 2 and not printed:
                         key /= radii[v]
@@ -115,7 +110,7 @@ def remove_in_order(
                                 n = neighbors[4 * v + j]
                                 if n < 0 or not alive[n]:
                                     pair = i * (7 - i) // 2 + j - i - 1
-                    key = alpha[6 * v + pair]
+                    key = values[6 * v + pair]
             else:
                 continue
             heappush(heap, (key, radii[v], v, c))
@@ -150,10 +145,7 @@ def remove_in_order(
             if r != v:
                 continue
         alive[v] = False
-        if key > running:
-            running = key
-        level[v] = running
-        kind[v] = c
+        keys[v] = key
         order[removed] = v
         removed += 1
         k = size - c if printed else c
@@ -166,7 +158,7 @@ def remove_in_order(
     return removed
 
 
-def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, compiled: bool | None = None):
+def run(rule: str, printed: bool, simplices, neighbors, values, radii, compiled: bool | None = None):
     """Levels, kinds and order of removal for the simplices of a region, numbered from 0.
 
     Parameters
@@ -175,9 +167,8 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     printed : bool
     simplices, neighbors : (t, N+1) int arrays
         Across the region's boundary the neighbor is -1.
-    measure : (t, N+1) float array or None
-        Not needed for "surface".
-    alpha : (t, 6) float array or None
+    values : (t, N+1) float array
+        Lengths or areas of the facets; for "surface" the angles of their pairs, (t, 6).
     radii : (t,) float array
     compiled : bool, optional
         Ask for the compiled or the plain loop; by default the compiled one for many
@@ -194,19 +185,15 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
     """
     t, size = simplices.shape
     there = neighbors >= 0
-    measure = np.zeros((t, size)) if measure is None else measure
-    alpha = np.zeros(0) if alpha is None else alpha
     arrays = [
         simplices.flatten(),
         neighbors.flatten(),
         np.ones(t, dtype=bool),
         there.sum(axis=1),
-        np.where(there, 0.0, measure).sum(axis=1),
-        measure.ravel(),
-        alpha.ravel(),
+        np.zeros(t) if rule == "surface" else np.where(there, 0.0, values).sum(axis=1),
+        values.ravel(),
         radii,
-        np.full(t, np.inf),
-        np.zeros(t, dtype=np.int8),
+        np.zeros(t),
         np.zeros(t, dtype=np.int64),
     ]
     if compiled is None:
@@ -221,5 +208,7 @@ def run(rule: str, printed: bool, simplices, neighbors, measure, alpha, radii, c
             stop = min(removed + _CHUNK, t)
             removed = loop(size, _RULES[rule], printed, *filled, removed, stop)
             progress.at(removed)
-    level, kind, order, share = (np.asarray(filled[k], dtype=arrays[k].dtype) for k in (8, 9, 10, 4))
-    return level, kind, order[:removed], share
+    count, share, keys, order = (np.asarray(filled[k], dtype=arrays[k].dtype) for k in (3, 4, 7, 8))
+    order, level, kind = order[:removed], np.full(t, np.inf), np.zeros(t, dtype=np.int8)
+    level[order], kind[order] = np.maximum.accumulate(keys[order]), count[order]
+    return level, kind, order, share

@@ -9,7 +9,7 @@ from ..graphs import OPPOSITE, Tessellation, corners_of, in_blocks, ordinary
 
 def _facet_vectors(tessellation: Tessellation, rows) -> np.ndarray:
     """Of the facet opposite each corner the way (2D) or twice the area vector, outward (3D), (N+1, N, t)."""
-    corners = corners_of(tessellation, rows).T
+    corners = corners_of(tessellation.points, tessellation.simplices[rows]).T
     base, *ends = (corners[:, k] for k in OPPOSITE[corners.shape[1]].T)
     if len(ends) == 1:
         return (ends[0] - base).swapaxes(0, 1)

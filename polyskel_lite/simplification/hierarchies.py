@@ -208,12 +208,11 @@ def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> H
     t, printed, inner = P.tessellation, criterion == "transcript", np.flatnonzero(P.inner)
     # The outer simplices take no part: only the inner ones are numbered, measured and removed.
     number = np.append(np.where(P.inner, np.cumsum(P.inner) - 1, -1), -1)
-    measure = alpha = None
     scaled, _ = ordinary(t)  # criteria are angles, whatever the unit
     if strategy == "surface":
-        alpha = face_angles(scaled, inner, dihedral=printed)
+        values = face_angles(scaled, inner, dihedral=printed)
     else:
-        measure = facet_measures(scaled, inner)
-    arrays = t.simplices[inner], number[t.neighbors[inner]], measure, alpha, scaled.circumradii[inner]
+        values = facet_measures(scaled, inner)
+    arrays = t.simplices[inner], number[t.neighbors[inner]], values, scaled.circumradii[inner]
     level, kind, order, _ = collapse.run(strategy, printed, *arrays)
     return Hierarchy(P, strategy, criterion, level, kind, order)

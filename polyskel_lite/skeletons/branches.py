@@ -8,7 +8,7 @@ import numpy as np
 
 from ..checks import as_instance
 from ..errors import InputError
-from ..exact import components, occurrences
+from ..exact import components, occurrences, spread_out
 from .skeleton import Skeleton
 
 if TYPE_CHECKING:
@@ -153,8 +153,8 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
     integral = np.concatenate([np.zeros_like(points[:1]), np.cumsum(steps, axis=0)])
     # Four places for each vertex, and the two ends.
     count = 4 * sizes + 1
-    chain = np.repeat(np.arange(len(sizes)), count)
-    share = (np.arange(len(chain)) - np.repeat(np.cumsum(count) - count, count)) / (count - 1)[chain]
+    chain, place = spread_out(count)
+    share = place / (count - 1)[chain]
     begin, end = along[first][chain], along[last][chain]
     s = begin + share * (end - begin)
 

@@ -15,22 +15,17 @@ import numpy as np
 from ..errors import InputError
 from ..exact import (
     Polygons,
-    between,
     clip_rational,
-    dot,
-    exact,
+    facet_distance,
+    fractions,
     locate,
-    locate_in_mesh,
-    locate_rational,
-    normal_of,
+    normals_of,
     overlapping_pairs,
-    point_segment_distance,
-    point_triangle_distance,
     rational_circumcenter,
 )
 from ..graphs import as_tessellation
 from ..shapes import Shape
-from . import inside_plane, inside_space
+from .crossings import crossing, pierced
 from .skeleton import Skeleton
 from .voronoi_graph import dual_complex, outward_normals
 
@@ -84,9 +79,9 @@ class VoronoiInside:
         skeleton = dual_complex(self.tessellation, self.inside, cut=~self._whole(), rays=self.side < 0)
         if not len(skeleton.polygons):
             return skeleton
-        pierced = inside_space.pierced(skeleton, self.shape, self.error.max(where=self.inside, initial=0.0))
-        kept = [p for p, bad in zip(skeleton.polygons, pierced, strict=True) if not bad]
-        return replace(skeleton, polygons=Polygons.of(kept)) if pierced.any() else skeleton
+        bad = pierced(skeleton, self.shape, self.error.max(where=self.inside, initial=0.0))
+        kept = [skeleton.polygons[k] for k in np.flatnonzero(~bad)]
+        return replace(skeleton, polygons=Polygons.of(kept)) if bad.any() else skeleton
 
     def intersection(self) -> Skeleton:
         """Sk3: Sk2 and the pieces of cut edges that are inside, with a vertex at every cut."""
@@ -123,24 +118,21 @@ class VoronoiInside:
 
     def _vertices_inside(self) -> np.ndarray:
         centers, error = self.tessellation.circumcenters, self.error
-        flat = self.shape.dimension == 2
-        distance = point_segment_distance if flat else point_triangle_distance
         sure = np.flatnonzero(self.sure)
         low, high = centers[sure] - error[sure, None], centers[sure] + error[sure, None]
         doubt = ~self.sure
         for i, j in overlapping_pairs(low, high, self.low, self.high):
             bound = error[sure[i]] + _ROUNDING * self.extent
-            doubt[sure[i[distance(centers[sure[i]], self.boundary[j]) <= bound]]] = True
+            doubt[sure[i[facet_distance(centers[sure[i]], self.boundary[j]) <= bound]]] = True
         inside = np.zeros(len(centers), dtype=bool)
-        where = (locate if flat else locate_in_mesh)(self.boundary, centers[~doubt])
-        inside[~doubt] = self.side * where >= 0
-        for k in np.flatnonzero(doubt):
-            inside[k] = self.side * locate_rational(self.boundary, self._center(k)) >= 0
+        inside[~doubt] = self.side * locate(self.boundary, centers[~doubt]) >= 0
+        if doubt.any():
+            exact = np.array([self._center(k) for k in np.flatnonzero(doubt)])
+            inside[doubt] = self.side * locate(self.boundary, exact) >= 0
         return inside
 
     def _whole(self) -> np.ndarray:
         """Voronoi edges (rows of ``facet_table``) wholly inside; fills ``pieces`` of those partly inside."""
-        crossing = (inside_plane if self.shape.dimension == 2 else inside_space).crossing
         sides = self.tessellation.facet_table[1]
         second = np.where(sides[:, 1] >= 0, sides[:, 1], sides[:, 0])
         doubt = ~self.sure[sides[:, 0]] | ~self.sure[second]
@@ -206,15 +198,15 @@ class VoronoiInside:
         start = self._center(first)
         if second >= 0:
             return start, self._center(second)
-        normal = normal_of(*(exact(p) for p in self.tessellation.points[self.tessellation.facets()[row]]))
-        outward = exact(outward_normals(self.tessellation, np.array([row]))[0])
-        sign = 1 if dot(normal, outward) > 0 else -1
-        far = 8 * (Fraction(self.extent) + max(map(abs, start))) / max(map(abs, normal))
-        return start, tuple(x + sign * far * n for x, n in zip(start, normal, strict=True))
+        normal = normals_of(fractions(self.tessellation.points[self.tessellation.facets()[[row]]]))[0]
+        outward = fractions(outward_normals(self.tessellation, np.array([row]))[0])
+        far = 8 * (Fraction(self.extent) + np.abs(start).max()) / np.abs(normal).max()
+        return start, start + (far if normal @ outward > 0 else -far) * normal
 
     def _at(self, row, t) -> np.ndarray:
         if isinstance(t, Fraction):
-            return np.array([float(x) for x in between(*self._exact_ends(row), t)])
+            start, end = self._exact_ends(row)
+            return (start + t * (end - start)).astype(float)
         # Circumcenters far away are rounded coarsely. The point of the facet that is as far from all samples
         # of the edge is not.
         samples = self.tessellation.points[self.tessellation.facets()[row]]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..exact import nearest_on_segments
-from ..shapes import Shape, check_shape
+from ..shapes import Shape, check_shape, local_width
 
 
 def grown_ball(shape: Shape, center) -> tuple[float, np.ndarray, float]:
@@ -49,17 +49,8 @@ def grown_ball(shape: Shape, center) -> tuple[float, np.ndarray, float]:
     first = distances.argmin()
     radius = float(distances[first])
     away = (center - feet[first]) / radius
-    # The ball around center + t * away with radius + t keeps its first contact. Shrink it to the nearest
-    # point of the boundary as long as that is inside.
-    t = float(np.ptp(shape.points, axis=0).sum())
-    for _ in range(100):
-        feet, distances = _feet(shape, center + t * away)
-        nearest = distances.argmin()
-        if distances[nearest] >= (radius + t) * (1 - 1e-12):
-            break
-        gap = center - feet[nearest]
-        t = max(0.0, float((gap @ gap - radius**2) / (2 * (radius - gap @ away))))
-    return radius, center + t * away, radius + t
+    full = max(radius, float(local_width(shape.segments, feet[[first]], away[None])[0]))
+    return radius, feet[first] + full * away, full
 
 
 def contact_points(shape: Shape, center, radius: float, share: float = 1e-6) -> np.ndarray:

@@ -314,21 +314,16 @@ class Skeleton:
         """
         path = as_path(path)
         try:
-            data = read_arrays(path)
-            needed = {*_ARRAYS, "polygon_corners", "polygon_sizes"}
-            if "tessellation_points" in data:
-                needed |= {f"tessellation_{name}" for name in _TESSELLATION}
-            if missing := sorted(needed - data.keys()):
-                raise InputError(f"there is no array {missing[0]}.")
+            data, tessellation = read_arrays(path), None
             polygons = Polygons(data["polygon_corners"], data["polygon_sizes"])
-            arrays = {name: data[name] for name in _ARRAYS}
-            tessellation = None
             if "tessellation_points" in data:
                 tessellation = Tessellation(*(data[f"tessellation_{name}"] for name in _TESSELLATION))
+            arrays = {name: data[name] for name in _ARRAYS}
             return cls(**arrays, polygons=polygons, tessellation=tessellation)
-        except InputError as error:
+        except (InputError, KeyError) as error:
+            reason = f"there is no array {error.args[0]}." if isinstance(error, KeyError) else error
             raise InputError(
-                f"{path.name[:60]} is not a skeleton written by Skeleton.save, or damaged: {error}"
+                f"{path.name[:60]} is not a skeleton written by Skeleton.save, or damaged: {reason}"
             ) from None
 
 

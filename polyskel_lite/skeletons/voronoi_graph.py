@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..exact import Polygons, dual_polygons, orientation
+from ..exact import Polygons, dual_polygons, normals_of, orientation
 from ..graphs import Tessellation, as_tessellation
 from .skeleton import Skeleton
 
@@ -66,11 +66,7 @@ def outward_normals(tessellation: Tessellation, rows: np.ndarray) -> np.ndarray:
     """
     corners = tessellation.points[tessellation.facets()[rows]]
     apex = tessellation.points[tessellation.apexes()[rows, 0]]
-    d = corners[:, 1:] - corners[:, :1]
-    if tessellation.dimension == 2:
-        normal = np.stack([-d[:, 0, 1], d[:, 0, 0]], axis=1)
-    else:
-        normal = np.cross(d[:, 0], d[:, 1])
+    normal = normals_of(corners)
     # Exactly, because the apex of a nearly flat simplex is too near to its facet for rounded signs.
     inward = orientation(np.concatenate([corners, apex[:, None]], axis=1)) > 0
     normal[inward] *= -1

@@ -10,13 +10,9 @@ from hypothesis import strategies as st
 
 from polyskel_lite import Shape
 from polyskel_lite.exact.boxes import self_overlaps
-from polyskel_lite.exact.nearest import nearest_facets
-from polyskel_lite.exact.triangles import (
-    locate_in_mesh,
-    meeting_faces,
-    point_triangle_distance,
-    segment_meets_triangle,
-)
+from polyskel_lite.exact.nearest import facet_distance, nearest_facets
+from polyskel_lite.exact.regions import locate
+from polyskel_lite.exact.triangles import meeting_faces, segment_meets_triangle
 
 GRID = st.integers(0, 3)
 POINT = st.tuples(GRID, GRID, GRID)
@@ -57,7 +53,7 @@ def test_locate_agrees_with_rational_rays(corners, queries):
     if round(volume) == 0:
         return
     triangles = corners[tetrahedron if volume > 0 else tetrahedron[:, [0, 2, 1]]]
-    found = locate_in_mesh(triangles, np.array(queries, dtype=float))
+    found = locate(triangles, np.array(queries, dtype=float))
     assert found.tolist() == [_inside_rational(triangles, q) for q in queries]
 
 
@@ -138,7 +134,7 @@ def test_distance_to_facets_is_the_least_of_all():
     size = 10.0 ** random.uniform(-3, 0, (60, 1, 1))
     triangles = random.normal(size=(60, 1, 3)) + size * random.normal(size=(60, 3, 3))
     queries = 2 * random.normal(size=(200, 3))
-    every = [point_triangle_distance(queries, np.broadcast_to(t, (200, 3, 3))) for t in triangles]
+    every = [facet_distance(queries, np.broadcast_to(t, (200, 3, 3))) for t in triangles]
     assert nearest_facets(triangles, queries)[0] == pytest.approx(np.min(every, axis=0), abs=1e-12)
     # And a dense sample of one triangle is never nearer, and nearly as near.
     u, v = np.meshgrid(np.linspace(0, 1, 60), np.linspace(0, 1, 60))

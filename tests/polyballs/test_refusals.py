@@ -39,13 +39,13 @@ def test_queries_are_checked():
 @pytest.mark.parametrize(
     ("method", "centers", "words"),
     [
-        ("arcs", [(0, 0, 0)], "discs of the plane"),
-        ("volume", [(0, 0)], "balls in space"),
-        ("patches", [(0, 0)], "balls in space"),
+        ("arcs", [(0, 0, 0)], "polyballs in the plane"),
+        ("volume", [(0, 0)], "polyballs in space"),
+        ("patches", [(0, 0)], "polyballs in space"),
     ],
 )
 def test_methods_of_one_dimension_refuse_the_other(method, centers, words):
-    with pytest.raises(InputError, match=rf"Polyball\.{method}\(\) is for {words}"):
+    with pytest.raises(InputError, match=rf"{method}\(\) is for {words}"):
         getattr(Polyball(centers, [1]), method)()
 
 

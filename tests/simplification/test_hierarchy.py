@@ -93,8 +93,8 @@ def test_outlines_keep_shape_and_skeleton_topology(name):
 @pytest.mark.parametrize("strategy", ["branch", "surface", "wireframe"])
 def test_compiled_and_plain_loops_agree(strategy):
     t = random_region(5, n=2 if strategy == "branch" else 3, points=200).tessellation
-    alpha = face_angles(t) if strategy == "surface" else None
-    arguments = (strategy, False, t.simplices, t.neighbors, facet_measures(t), alpha, t.circumradii)
+    values = face_angles(t) if strategy == "surface" else facet_measures(t)
+    arguments = (strategy, False, t.simplices, t.neighbors, values, t.circumradii)
     pytest.importorskip("numba")
     for a, b in zip(
         collapse.run(*arguments, compiled=True), collapse.run(*arguments, compiled=False), strict=True
@@ -148,7 +148,7 @@ def test_area_is_handed_on_completely():
     total = measure[neighbors < 0].sum()
     for printed in (False, True):
         level, kind, _, share = collapse.run(
-            "wireframe", printed, t.simplices[inner], neighbors, measure, None, t.circumradii[inner]
+            "wireframe", printed, t.simplices[inner], neighbors, measure, t.circumradii[inner]
         )
         assert (kind == 1).any()
         # Sums of a thousand areas of size one hundredth, in another order.

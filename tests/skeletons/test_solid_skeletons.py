@@ -9,7 +9,7 @@ from truth.solids import FIELDS, random_solids, solid
 
 import polyskel_lite as psl
 from polyskel_lite import InputError
-from polyskel_lite.exact.rational import clip_rational, locate_rational, rational_circumcenter
+from polyskel_lite.exact import clip_rational, fractions, locate, rational_circumcenter
 
 
 def nested(small, large):
@@ -55,7 +55,7 @@ def exact_edges(shape, tessellation, side):
     """Vertices and wholly inner Voronoi edges, by fractions alone."""
     triangles = shape.segments
     centers = [rational_circumcenter(t) for t in tessellation.points[tessellation.simplices]]
-    vertices = {k for k, c in enumerate(centers) if side * locate_rational(triangles, c) >= 0}
+    vertices = set(np.flatnonzero(side * locate(triangles, np.array(centers)) >= 0).tolist())
     every = np.arange(len(triangles))
     edges, pieces = set(), 0
     for first, second in tessellation.facet_table[1].tolist():
@@ -158,15 +158,12 @@ def test_samples_of_the_wrong_dimension():
 
 
 def test_rational_points():
-    assert rational_circumcenter(np.array([(0, 0, 0), (1, 0, 0), (0, 3, 0), (0, 0, 5)])) == (
-        Fraction(1, 2),
-        Fraction(3, 2),
-        Fraction(5, 2),
-    )
+    center = rational_circumcenter(np.array([(0, 0, 0), (1, 0, 0), (0, 3, 0), (0, 0, 5)]))
+    assert center.tolist() == [Fraction(1, 2), Fraction(3, 2), Fraction(5, 2)]
     V, F = cube()
     for height, where in ((Fraction(1, 3), 1), (Fraction(1), 0), (Fraction(4, 3), -1), (Fraction(0), 0)):
-        assert locate_rational(V[F], (Fraction(1, 2), Fraction(1, 2), height)) == where
-    ends = [(Fraction(x), Fraction(x), Fraction(1)) for x in (-1, 3)]
+        assert locate(V[F], np.array([(Fraction(1, 2), Fraction(1, 2), height)])).tolist() == [where]
+    ends = fractions([(-1, -1, 1), (3, 3, 1)])
     along_a_face = clip_rational(V[F], np.arange(12), *ends, 1)
     assert along_a_face == [(Fraction(1, 4), Fraction(1, 2))]
 

@@ -1,10 +1,10 @@
-"""Where Voronoi edges cross the boundary of a solid, and which Voronoi polygons its edges go through."""
+"""Where Voronoi edges cross a boundary, and which Voronoi polygons the edges of a mesh go through."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..exact import between, dot, exact, minus, overlapping_pairs
+from ..exact import fractions, normals_of, overlapping_pairs
 from ..shapes import Shape
 from .skeleton import Skeleton
 
@@ -68,51 +68,49 @@ def _goes_through(segment, pair, around, extent) -> bool:
             return False
         if gaps.min() > blur:
             return True
-    p, q, u, v = exact(p), exact(q), *(exact(x) for x in segment)
-
-    def power(x, s):
-        return dot(minus(x, s), minus(x, s))
-
-    start, end = (power(x, p) - power(x, q) for x in (u, v))
+    (p, q), (u, v), around = fractions(pair), fractions(segment), fractions(around)
+    start, end = (((x - p) ** 2).sum() - ((x - q) ** 2).sum() for x in (u, v))
     if start == end or start * end > 0:
         return False
-    x = between(u, v, start / (start - end))
-    return all(power(x, exact(s)) > power(x, p) for s in around)
+    x = u + start / (start - end) * (v - u)
+    return bool((((around - x) ** 2).sum(axis=1) > ((p - x) ** 2).sum()).all())
 
 
-def crossing(ends, triangles, slack):
-    """Where segments (k, 2, 3) cross triangles: parameter, whether surely, whether in doubt.
+def crossing(ends, facets, slack):
+    """Where segments (k, 2, N) cross facets (k, N, N): parameter, whether surely, whether in doubt.
 
     ``slack`` (k,) bounds the error of the ends.
 
     Examples
     --------
+    >>> edge, segment = np.array([[[0.0, 0], [4, 0]]]), np.array([[[1.0, -1], [1, 1]]])
+    >>> [array.tolist() for array in crossing(edge, segment, np.zeros(1))]
+    [[0.25], [True], [False]]
     >>> edge = np.array([[[0.25, 0.25, -1], [0.25, 0.25, 3]]])
     >>> triangle = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
     >>> [array.tolist() for array in crossing(edge, triangle, np.zeros(1))]
     [[0.25], [True], [False]]
     """
     p, way = ends[:, 0], ends[:, 1] - ends[:, 0]
-    a = triangles[:, 0]
-    sides = np.roll(triangles, -1, axis=1) - triangles
-    normal = np.cross(sides[:, 0], sides[:, 1])
+    a, plane = facets[:, 0], facets.shape[1] == 2
+    sides = np.roll(facets, -1, axis=1) - facets
+    normal = normals_of(facets)
     length = np.linalg.norm(way, axis=1)
     span = length + np.abs(p - a).sum(axis=1) + np.abs(sides).sum(axis=(1, 2))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        twice_area = np.linalg.norm(normal, axis=1)
-        normal = normal / twice_area[:, None]
+        size = np.linalg.norm(normal, axis=1)
+        normal = normal / size[:, None]
         # Thin triangles have a rounded normal.
-        blur = slack + _ROUNDING * span * (1 + (sides**2).sum(axis=(1, 2)) / twice_area)
+        thin = 0 if plane else (sides**2).sum(axis=(1, 2)) / size
+        blur = slack + _ROUNDING * span * (1 + thin)
         first = ((p - a) * normal).sum(axis=1)
         second = ((p + way - a) * normal).sum(axis=1)
         t = first / (first - second)
         moved = blur * (2 + 4 * length / np.abs(first - second))
         x = p + t[:, None] * way
-        depth = np.full(len(p), np.inf)
-        for k in range(3):
-            inward = np.cross(normal, sides[:, k])
-            inward /= np.linalg.norm(sides[:, k], axis=1)[:, None]
-            depth = np.minimum(depth, ((x - triangles[:, k]) * inward).sum(axis=1))
+        inward = sides if plane else np.cross(normal[:, None], sides)
+        inward = inward / np.linalg.norm(sides, axis=2)[..., None]
+        depth = ((x[:, None] - facets) * inward).sum(axis=2).min(axis=1)
     sided = (np.abs(first) > blur) & (np.abs(second) > blur)
     apart = sided & (first * second > 0)
     across = sided & (first * second < 0)
