@@ -38,7 +38,7 @@ lint: $(VENV)/.test  ## ruff: rules and format
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
 
-unit: $(VENV)/.test  ## unit and property tests, doctests
+unit: book $(VENV)/.test  ## unit and property tests, doctests
 	@echo "Unit tests, property tests and doctests ..."
 	@$(BIN)/python -m pytest -n $(JOBS) --mpl -rs --ignore tests/browser
 

@@ -56,7 +56,8 @@ html_theme_options = {"navbar_persistent": [], "show_toc_level": 2, "use_downloa
 if "repository" in BOOK["book"]:
     html_theme_options |= {
         "repository_url": BOOK["book"]["repository"],
-        "repository_branch": BOOK["book"].get("branch", "main"),
+        # Where a branch of working copies is named, the buttons open these: plain notebooks.
+        "repository_branch": BOOK["book"].get("copies", BOOK["book"].get("branch", "main")),
         "repository_provider": BOOK["book"].get("provider", ""),
         "path_to_docs": "notebooks",
         "use_repository_button": True,

@@ -26,13 +26,16 @@ NOTEBOOKS = ROOT / "notebooks"
 BESIDE = (
     "notebooks/claims.toml",
     "notebooks/claims.csv",
-    "polyskel_lite/**/*.py",
+    "polyskel_lite/**/*",
     "tests/claims/*.py",
     "tests/fuzz/*.py",
     "tests/truth/*.py",
     "tools/register.py",
     "benchmarks/*",
     "*.md",
+    "*.toml",
+    "*.yml",
+    "LICENSE*",
 )
 ROLE = re.compile(r"\{([a-z:]+)\}`([^`]+)`")
 DIRECTIVE = re.compile(r"^(`{3,})\{([a-z:-]+)\} *(.*)\n((?:.*\n)*?)\1 *$", re.M)
@@ -241,7 +244,7 @@ def write(folder: Path, doctrees: Path) -> list[str]:
     """Lay out the copies and what they read; returns the names of those kept as a reader left them."""
     for pattern in BESIDE:
         for path in sorted(ROOT.glob(pattern)):
-            if path.is_file():
+            if path.is_file() and "__pycache__" not in path.parts:
                 (folder / path.relative_to(ROOT)).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(path, folder / path.relative_to(ROOT))
     record, kept = folder / "copies.json", []

@@ -72,7 +72,7 @@ def test_hierarchies_with_holes_and_both_criteria():
     picture = explore.viewer(both)
     assert [h["label"] for h in picture.scene["variants"][0]["hierarchies"]] == [
         "branch, corrected",
-        "branch, as printed",
+        "branch, transcript",
     ]
     for h in both:
         picture.strategy = f"branch, {h.criterion}"

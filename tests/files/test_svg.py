@@ -131,7 +131,7 @@ def test_bad_svg_tolerance(tmp_path, tolerance):
 
 def test_svg_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "svgpathtools", None)
-    with pytest.raises(InputError, match=r"pip install polyskel-lite\[files\]"):
+    with pytest.raises(InputError, match=r"pip install svgpathtools"):
         read_svg(tmp_path, '<rect width="1" height="1"/>')
 
 

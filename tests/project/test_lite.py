@@ -120,6 +120,8 @@ def native() -> dict:
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory) -> Path:
+    if not (ROOT / "_build" / "doctrees" / "environment.pickle").exists():
+        pytest.skip("the site has the numbers of the built book: run make book first.")
     folder = tmp_path_factory.mktemp("lite") / "site"
     done = run(sys.executable, "tools/build_lite.py", "--output", folder)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -188,8 +190,8 @@ def test_site_holds_every_chapter_with_two_cells_in_front(site):
     for path in NOTEBOOKS:
         copy = nbformat.read(site / "files" / "notebooks" / path.name, as_version=4)
         nbformat.validate(copy)
-        own = nbformat.read(path, as_version=4)
-        assert copy.cells[2:] == own.cells, path.name
+        code = [c.source for c in nbformat.read(path, as_version=4).cells if c.cell_type == "code"]
+        assert [c.source for c in copy.cells[2:] if c.cell_type == "code"] == code, path.name
         assert copy.cells[0].source.count("Python in your browser") == 1
         assert re.fullmatch(r"%pip install -q polyskel-lite\[[a-z,]+\]( \w+)*", copy.cells[1].source)
     listed = json.loads((site / "api" / "contents" / "notebooks" / "all.json").read_text(encoding="utf-8"))
