@@ -10,8 +10,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -30,6 +28,7 @@ def figure_is(name: str, panels: int, shows: Callable[[Figure, list[Axes]], bool
 
     ``shows`` gets the figure and its panels that have something on them.
     """
+    matplotlib.use("Agg")  # not at import: the claims page shows pictures of its own
     draw = FIGURES[name]
     with plt.style.context("default"):
         figure = draw()
