@@ -8,6 +8,7 @@ that jupyterlite-pyodide-kernel has built in; with --pyodide, from a folder that
 """
 
 import argparse
+import json
 import re
 import shutil
 import subprocess
@@ -60,7 +61,12 @@ def write_files(folder: Path) -> None:
     for path in sorted((folder / "notebooks").glob("*.ipynb")):
         notebook = nbformat.read(path, as_version=4)
         notebook.cells = [cell for cell in notebook.cells if cell.id != "install"]
-        nbformat.write(browser_copy(notebook, path.stem), path)
+        for cell in notebook.cells:  # no server signs notebooks there, and what is not trusted shows no SVG
+            if cell.cell_type == "code":
+                cell.metadata["trusted"] = True
+        # nbformat would take away who is trusted.
+        copy = json.dumps(browser_copy(notebook, path.stem), ensure_ascii=False)
+        path.write_text(copy, encoding="utf-8")
 
 
 def run(*command: str, folder: Path = ROOT) -> None:

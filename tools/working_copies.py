@@ -26,6 +26,7 @@ NOTEBOOKS = ROOT / "notebooks"
 BESIDE = (
     "notebooks/claims.toml",
     "notebooks/claims.csv",
+    "notebooks/references.bib",
     "polyskel_lite/**/*",
     "tests/claims/*.py",
     "tests/fuzz/*.py",

@@ -43,7 +43,7 @@ def test_lab_opens_lists_the_chapters_and_shows_one(browser, lite):
         page.goto(f"{lite}/lab/index.html?path=notebooks/index.ipynb")
         page.locator(".jp-Notebook h1", has_text="Continuous skeletons").wait_for()
         page.locator(".jp-Notebook", has_text="Python in your browser").wait_for()
-        assert page.locator(".jp-Notebook .jp-RenderedImage img").count() > 0  # stored outputs are there
+        page.locator(".jp-RenderedImage img, .jp-RenderedSVG").first.wait_for()  # stored outputs are there
         listed = page.locator(".jp-DirListing-itemText").all_inner_texts()
         chapters = {path.name for path in (ROOT / "notebooks").glob("*.ipynb")}
         assert chapters <= {name.strip() for name in listed}
