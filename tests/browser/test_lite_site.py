@@ -1,9 +1,10 @@
-"""The browser site of `make lite` in Chromium: JupyterLab opens, lists the chapters and shows one.
+"""The browser site of `make lite` in Chromium: JupyterLab lists the chapters, shows one, and runs two.
 
-Its kernel is Pyodide from Pyodide's own address, which a test machine need not reach: every request to
-another host is refused here, so no cell runs. tests/project/test_lite.py runs the library in Pyodide itself.
+Its kernel is Pyodide from Pyodide's own address, which a test machine need not reach. So cells run in a second
+site that brings its own, and every request of the first one to another host is refused.
 """
 
+import re
 import subprocess
 import sys
 
@@ -22,6 +23,20 @@ def lite(browser, tmp_path_factory):
     subprocess.run(
         [sys.executable, "tools/build_lite.py", "--output", folder], cwd=ROOT, check=True, timeout=300
     )
+    with served(folder) as address:
+        yield address
+
+
+@pytest.fixture(scope="module")
+def whole_lite(browser, tmp_path_factory):
+    """A site that brings its own Pyodide; skipped where tools/fetch_pyodide.py has not brought one."""
+    pyodide = ROOT / "_build" / "pyodide"
+    if not (pyodide / "wheels").exists():
+        pytest.skip("no Pyodide here: run tools/fetch_pyodide.py.")
+    folder = tmp_path_factory.mktemp("whole") / "site"
+    command = [sys.executable, "tools/build_lite.py", "--output", folder]
+    command += ["--pyodide", pyodide, "--wheels", pyodide / "wheels"]
+    subprocess.run(command, cwd=ROOT, check=True, timeout=300)
     with served(folder) as address:
         yield address
 
@@ -48,3 +63,23 @@ def test_lab_opens_lists_the_chapters_and_shows_one(browser, lite):
         chapters = {path.name for path in (ROOT / "notebooks").glob("*.ipynb")}
         assert chapters <= {name.strip() for name in listed}
     assert all(f"/pyodide/v{PYODIDE_VERSION}/" in url for url in outside), outside
+
+
+@pytest.mark.parametrize("name", ["A_1_polyballs", "explore"])
+def test_a_chapter_runs_in_the_browser(browser, whole_lite, name):
+    """Kernel, library, widgets and files from the site alone: every cell runs, and none fails."""
+    page = browser.new_page(viewport={"width": 1400, "height": 900})
+    outside = []
+    page.on("request", lambda request: outside.append(request.url))
+    page.goto(f"{whole_lite}/lab/index.html?path=notebooks/{name}.ipynb")
+    page.locator(".jp-Notebook h1").first.wait_for(timeout=4 * PATIENCE)
+    page.get_by_text("Python (Pyodide) | Idle").wait_for(timeout=180_000)
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+    page.get_by_text("Python (Pyodide) | Busy").wait_for(timeout=4 * PATIENCE)
+    page.get_by_text("Python (Pyodide) | Idle").wait_for(timeout=240_000)
+    assert page.locator(".jp-OutputArea-output[data-mime-type$='jupyter.error']").count() == 0
+    # Cells that run in this page count from 1; the stored numbers began with the first cell of the chapter.
+    assert page.locator(".jp-InputPrompt", has_text=re.compile(r"^\[1\]:$")).count() == 1
+    assert [url for url in outside if not url.startswith((whole_lite, "data:", "blob:"))] == []
+    page.close()
