@@ -25,7 +25,8 @@ NOTE = """\
 >
 > This copy of the chapter runs on your own machine, in this page: nothing is installed, nothing is sent
 > away. Run the next cell first (Shift+Enter). It fetches the library, and with it NumPy, SciPy and
-> Matplotlib, which the browser keeps. Cells take two to ten times as long as on your desktop.{missing}"""
+> Matplotlib: some 65 MB, once, which the browser keeps. Cells take two to ten times as long as on your
+> desktop.{missing}"""
 
 # A browser has no numba. What that means is said where a reader would wonder.
 SLOW = " The hierarchy of a large solid, compiled there, takes up to a minute here; its numbers are the same."

@@ -102,6 +102,13 @@ def test_table_is_the_register():
     assert list(register["SIGNS"]) == list(VERDICTS)
 
 
+def test_index_counts_as_the_register_does():
+    index = (ROOT / "notebooks" / "index.ipynb").read_text(encoding="utf-8")
+    assert f"{len(CLAIMS)} statements of the paper" in index
+    assert [claim["verdict"] for claim in CLAIMS].count("does not hold") == 3
+    assert "three do not" in index
+
+
 @cache
 def code_cells(path: Path) -> list[dict]:
     notebook = json.loads(path.read_text(encoding="utf-8"))
