@@ -38,12 +38,14 @@ def draw_branch_counts(ax, found, most: int | None = None):
     t = found.thresholds / np.pi
     ends = np.concatenate([[t[0]], (t[1:] + t[:-1]) / 2, [t[-1]]])
     rows = np.arange(len(counts) + 1) - 0.5
-    ax.pcolormesh(ends, rows, np.minimum(counts, most), cmap="cividis", vmin=0, vmax=most)
+    cells = np.minimum(counts, most)
+    # As pixels: in line art hairlines of the ground would show between the cells.
+    ax.pcolormesh(ends, rows, cells, cmap="cividis", vmin=0, vmax=most, rasterized=True)
     for y, row in enumerate(counts):
         # Each run of equal counts is told once, where it is wide enough for its number.
         starts = np.flatnonzero(np.diff(row, prepend=-1))
         for a, b in zip(starts, [*starts[1:], len(row)], strict=True):
-            if ends[b] - ends[a] > 0.03 * len(str(row[a])) * (ends[-1] - ends[0]):
+            if ends[b] - ends[a] > 0.035 * len(str(row[a])) * (ends[-1] - ends[0]):
                 color, weight = "k" if row[a] > most / 2 else "w", "bold" if row[a] == usual else "normal"
                 middle = (ends[a] + ends[b]) / 2
                 ax.text(middle, y, row[a], ha="center", va="center", size=8, color=color, weight=weight)

@@ -85,7 +85,8 @@ def _lines(figure: Figure) -> tuple[str, tuple[int, int]]:
     # Letters as lines: a page may not have the font, and formulas would fall apart.
     with plt.rc_context({"svg.fonttype": "path", "svg.hashsalt": "polyskel_lite"}):
         figure.savefig(file, format="svg", bbox_inches="tight", metadata={"Date": None})
-    svg = re.sub(r"(\.\d\d)\d+", r"\1", file.getvalue())
+    # Two decimals are enough for places, not for the scale of letters.
+    svg = re.sub(r"scale\([^)]*\)|(\.\d\d)\d+", lambda found: found[1] or found[0], file.getvalue())
     svg = re.sub(r"\s*\n\s*", " ", svg).strip()  # one line of a notebook's file, and not thousands
     width, height = (
         round(float(points) * figure.dpi / 72) for points in re.findall(r'="([\d.]+)pt"', svg)[:2]

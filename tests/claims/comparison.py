@@ -190,7 +190,7 @@ def theorem_2(shape: psl.Shape, side: int, rays: bool = True) -> bool:
 
 @check("theorem-1")
 def first_theorem():
-    """50 random regions here, 1,000 in test_theorems.py; with the printed rule circles may touch."""
+    """50 random regions here, 1,000 in test_theorems.py; with the paper's rule circles may touch."""
     regions = gabriel_regions()
     assert all(map(strictly_gabriel_boundary, regions))
     assert any(s.betti()[0] > 1 for s in regions)
@@ -216,7 +216,7 @@ def _library_stays(shape: psl.Shape, side: str) -> bool:
 
 
 def _closed_theorem_1(shape: psl.Shape) -> bool:
-    """Theorem 1 with closed sides, for boundaries that are Gabriel by the printed rule only."""
+    """Theorem 1 with closed sides, for boundaries that are Gabriel by the paper's rule only."""
     samples, segments = exact(shape)
     assert open_gabriel_boundary(shape)
     assert not strictly_gabriel_boundary(shape)

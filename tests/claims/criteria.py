@@ -327,7 +327,7 @@ def area_handed_on():
 
 
 def area_over_radius(region: Region, s, share) -> float | None:
-    """3D as printed: salients always, hats by p(v)/r(v)."""
+    """3D as in the transcript: salients always, hats by p(v)/r(v)."""
     value = wireframe(region, s, share)
     return None if value is None else value * region.radius(s)
 

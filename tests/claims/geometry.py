@@ -160,7 +160,7 @@ def named(skeleton: psl.Skeleton) -> tuple[set, set, set]:
 
 
 def open_gabriel(p, q, samples) -> bool:
-    """No sample inside the open disk of diameter pq: the rule as printed."""
+    """No sample inside the open disk of diameter pq: the rule of the paper."""
     return all(dot(s, p, q) >= 0 for s in samples if s not in (p, q))
 
 

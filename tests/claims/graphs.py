@@ -253,7 +253,7 @@ def cost_of_the_graph():
 
 @check("def-gabriel")
 def gabriel_graph():
-    """Against all pairs, exactly: the strict rule of this book, and the printed one, which differs."""
+    """Against all pairs, exactly: the strict rule of this book, and the paper's, which differs."""
     for points in integer_sets():
         samples = rational(points)
         brute = {
@@ -281,7 +281,7 @@ def _gabriel_in_space() -> bool:
 
 @check("gabriel-in-delaunay")
 def gabriel_in_delaunay():
-    """Strict Gabriel facets are Delaunay facets; by the printed rule both diagonals of a square are Gabriel.
+    """Strict Gabriel facets are Delaunay facets; by the paper's rule both diagonals of a square are Gabriel.
 
     Of all pairs, and in space all triples, that are Gabriel by definition none is missing in the library.
     """

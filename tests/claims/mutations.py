@@ -405,11 +405,11 @@ def holes_lost(points):
 # Hierarchies
 
 
-def as_printed(P, strategy=None, criterion="corrected"):
+def always_transcript(P, strategy=None, criterion="corrected"):
     return HIERARCHY(P, strategy, "transcript")
 
 
-def never_as_printed(P, strategy=None, criterion="corrected"):
+def never_transcript(P, strategy=None, criterion="corrected"):
     return HIERARCHY(P, strategy)
 
 

@@ -67,7 +67,7 @@ def path_from_vertex_to_triangle():
 
 @check("proof-gap")
 def the_point_left_out():
-    """m = v is not covered: by the printed rule v can be on the boundary, by the strict rule it never is.
+    """m = v is not covered: by the paper's rule v can be on the boundary, by the strict rule it never is.
 
     Then the library finds it on both closed sides; else each vertex on one of them.
     """

@@ -42,8 +42,8 @@ NOTHING_MISSING = ("no facet is missing", m.instead(psl, "missing_facets", m.not
 NOT_REFINED = ("refinement adds nothing", m.instead(psl, "conform", m.nothing_added))
 CORNERS_ONLY = ("w⁻¹ measured at corners only", m.instead(SHAPE, "covering_radius", m.at_the_corners))
 SMALLER_BALLS = ("radii 0.9 times", m.instead(psl.Skeleton, "balls", m.smaller_balls))
-AS_PRINTED = ("criteria as printed", m.instead(psl, "hierarchy", m.as_printed))
-NEVER_AS_PRINTED = ("criteria never as printed", m.instead(psl, "hierarchy", m.never_as_printed))
+TRANSCRIPT = ("criteria of the transcript", m.instead(psl, "hierarchy", m.always_transcript))
+NEVER_TRANSCRIPT = ("criteria never of the transcript", m.instead(psl, "hierarchy", m.never_transcript))
 ONE_TOO_MANY = ("the last one that stays goes too", m.instead(psl, "hierarchy", m.one_too_many))
 KINDS_SWAPPED = ("hats for salients", m.instead(psl, "hierarchy", m.kinds_swapped))
 SMALLER_SKELETON = ("radii 0.9 times", m.instead(BALLS, "skeleton", m.skeleton_of_smaller_balls))
@@ -170,9 +170,9 @@ MUTATIONS: dict[str, tuple[str, m.Mutation]] = {
         "triangles that have gone come back",
         m.instead(psl.Skeleton, "reconstruct", m.whole_shape),
     ),
-    "size-invariant": AS_PRINTED,
+    "size-invariant": TRANSCRIPT,
     "angle-importance": ("sign flipped", m.instead(psl, "hierarchy", m.sign_flipped)),
-    "hierarchy-nested": AS_PRINTED,
+    "hierarchy-nested": TRANSCRIPT,
     "duality-removal": EDGE_LOST,
     "simplify-homotopy": ONE_TOO_MANY,
     "hat-triangle": (
@@ -187,33 +187,33 @@ MUTATIONS: dict[str, tuple[str, m.Mutation]] = {
         m.instead(removals, "simplices_by_type", m.boundary_sides),
     ),
     "fig-7": ("Sk0 loses its last vertex", m.instead(removals, "sk0", m.last_vertex_lost(m.SK0))),
-    "surface-strategy": AS_PRINTED,
-    "wireframe-strategy": AS_PRINTED,
+    "surface-strategy": TRANSCRIPT,
+    "wireframe-strategy": TRANSCRIPT,
     # 4.3
-    "alpha-criterion": AS_PRINTED,
-    "alpha-normals": NEVER_AS_PRINTED,
-    "p-over-r-angle": AS_PRINTED,
-    "perimeter-2d": NEVER_AS_PRINTED,
-    "branch-criterion": AS_PRINTED,
-    "a-of-v": AS_PRINTED,
+    "alpha-criterion": TRANSCRIPT,
+    "alpha-normals": NEVER_TRANSCRIPT,
+    "p-over-r-angle": TRANSCRIPT,
+    "perimeter-2d": NEVER_TRANSCRIPT,
+    "branch-criterion": TRANSCRIPT,
+    "a-of-v": TRANSCRIPT,
     "a-of-v-depth": ("v itself is lost", m.instead(simplification, "behind", m.last_of_them_lost)),
-    "fig-8": ("criteria as printed", m.instead(simplified, "hierarchy", m.as_printed)),
+    "fig-8": ("criteria of the transcript", m.instead(simplified, "hierarchy", m.always_transcript)),
     "transcript-fig-8": ("degrees for radians", m.instead(psl, "hierarchy", m.in_degrees)),
     "fig-9": ("a triangle of A(v) is lost", m.instead(simplified, "behind", m.first_of_them_lost)),
-    "raw-threshold-wrong": AS_PRINTED,
+    "raw-threshold-wrong": TRANSCRIPT,
     "def-p-3d": (
         "parallelograms for triangles",
         m.instead(simplification, "facet_measures", m.twice_the_area),
     ),
-    "p-constant": AS_PRINTED,
-    "p-over-r-squared": NEVER_AS_PRINTED,
-    "order-dependence": AS_PRINTED,
+    "p-constant": TRANSCRIPT,
+    "p-over-r-squared": NEVER_TRANSCRIPT,
+    "order-dependence": TRANSCRIPT,
     # results, 5
-    "branches-found": AS_PRINTED,
-    "fig-10": ("criteria as printed", m.instead(results, "hierarchy", m.as_printed)),
-    "time-under-30s": AS_PRINTED,
+    "branches-found": TRANSCRIPT,
+    "fig-10": ("criteria of the transcript", m.instead(results, "hierarchy", m.always_transcript)),
+    "time-under-30s": TRANSCRIPT,
     "almost-wireframe": ("what goes for what stays", m.instead(psl.Hierarchy, "kept", m.what_goes)),
-    "parametrized-by-an-angle": AS_PRINTED,
+    "parametrized-by-an-angle": TRANSCRIPT,
     "transcript-section-4": ("a wrong section is cited", m.instead(psl, "sk2", m.section_four)),
     "transcript-angel": ("words are taken for thresholds", m.instead(psl.Hierarchy, "kept", m.any_threshold)),
     # A
@@ -252,7 +252,7 @@ MUTATIONS: dict[str, tuple[str, m.Mutation]] = {
     "theorem-3-cases": SMALLER_SKELETON,
     "theorem-4-contacts": SMALLER_SKELETON,
     "volume-of-unions": ("overlaps count twice", m.instead(BALLS, "area", m.overlaps_twice)),
-    "chromosome-distance": AS_PRINTED,
+    "chromosome-distance": TRANSCRIPT,
     "remarkably-representative": SMALLER_BALLS,
     "theorem-2-converse": SK0_FOR_SK2,
     "sk2-five-conditions": (
