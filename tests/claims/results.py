@@ -29,7 +29,7 @@ def results(name: str) -> psl.Hierarchy:
 
 @check("branches-found")
 def ends_of_the_wireframe():
-    """Ends at 2π, counted from the edges alone: 4 and 4, as the paper counts on its own; our vertebra is another bone."""
+    """Ends at 2π, counted from the edges alone: 4 and 4, as in the paper; our vertebra is another bone."""
     found = {
         name: ends(results(name).skeleton(2 * np.pi)) for name in ("fourbranch", "chromosome", "vertebra")
     }
