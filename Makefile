@@ -89,6 +89,6 @@ lock:  ## maintainers: resolve pyproject.toml anew into requirements/*.lock (nee
 	@rm requirements/union.txt
 
 clean:  ## remove what the commands above made, except the environment and your copies in _build/lab
-	-find _build -mindepth 1 -maxdepth 1 ! -name lab -exec rm -rf {} +
+	test ! -d _build || find _build -mindepth 1 -maxdepth 1 ! -name lab ! -name pyodide -exec rm -rf {} +
 	rm -rf figures dist .pytest_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .checks import MOST_POINTS
+from .checks import MOST_POINTS, as_choice, as_floats, as_number
 from .containment import conform, delaunay_shape
 from .errors import CoarseSamplingWarning, InputError, PolyskelError
 from .progress import Progress
@@ -170,20 +170,25 @@ def skeleton(
     >>> round(axis.smooth_length, 1), round(axis.mean_radius, 2)
     (16.0, 2.01)
     """
-    if isinstance(source, Shape):
-        given = source
-    elif isinstance(source, str | PathLike):
-        given = Shape.from_file(source, **options)
-    else:
-        given = Shape.from_rings(source)
-    if strategy is None:
-        strategy = STRATEGIES[given.dimension][0]
-    if strategy not in THRESHOLDS:
-        raise InputError(f"unknown strategy {strategy!r}; choose one of {', '.join(THRESHOLDS)}.")
+    given = _given(source, options)
+    strategy = (
+        STRATEGIES[given.dimension][0] if strategy is None else as_choice(strategy, "strategy", THRESHOLDS)
+    )
     (bones,) = refined_bones(given, (strategy,), threshold, densify)
     if sentence := bones.warning():
         warnings.warn(sentence, CoarseSamplingWarning, stacklevel=2)
     return bones
+
+
+def _given(source, options: dict) -> Shape:
+    """The shape of a path, of rings, or itself."""
+    if isinstance(source, str | PathLike):
+        return Shape.from_file(source, **options)
+    if options:
+        raise InputError(
+            f"unknown option {min(options)!r}; options beyond those of skeleton() are for files."
+        )
+    return source if isinstance(source, Shape) else Shape.from_rings(source)
 
 
 def refined_bones(
@@ -237,7 +242,7 @@ class BranchCounts(NamedTuple):
 
 
 def branch_counts(
-    shape: Shape,
+    source: Shape | str | PathLike | Sequence,
     strategy: str | None = None,
     thresholds=None,
     copies: int = 8,
@@ -251,7 +256,7 @@ def branch_counts(
 
     Parameters
     ----------
-    shape : Shape
+    source : Shape, path, or list of rings
         Dense enough as it is: nothing is added but what contour containment asks for.
     strategy : "branch" (2D), "surface" or "wireframe" (3D), optional
         By default "branch" or "wireframe".
@@ -283,16 +288,17 @@ def branch_counts(
     >>> found.counts.shape
     (3, 2)
     """
-    if strategy is None:
-        strategy = {2: "branch", 3: "wireframe"}[shape.dimension]
-    if strategy not in STRATEGIES[shape.dimension]:
-        known = ", ".join(STRATEGIES[shape.dimension])
-        raise InputError(f"unknown strategy {strategy!r} in {shape.dimension}D; choose one of {known}.")
-    if copies < 0 or not 0 <= shake < 1:
-        raise InputError(f"copies is {copies} and shake {shake}; choose copies >= 0 and 0 <= shake < 1.")
+    shape = _given(source, {})
+    strategy = {2: "branch", 3: "wireframe"}[shape.dimension] if strategy is None else strategy
+    as_choice(strategy, f"strategy in {shape.dimension}D", STRATEGIES[shape.dimension])
+    copies = as_number(copies, "copies", "a number of copies", 0, 10_000, whole=True)
+    shake = as_number(shake, "shake", "a share of the length of an edge", 0, 1)
+    seed = as_number(seed, "seed", "a whole number", 0, 2**63, whole=True)
     if thresholds is None:
         thresholds = THRESHOLDS[strategy] * np.arange(1, 25) / 12
-    thresholds = np.atleast_1d(np.asarray(thresholds, dtype=float))
+    thresholds = np.atleast_1d(as_floats(thresholds, "thresholds", "a list of angles in radians"))
+    if thresholds.ndim != 1 or not len(thresholds):
+        raise InputError(f"thresholds has shape {thresholds.shape}; pass a list of angles in radians.")
     rng = np.random.default_rng(seed)
     counts = np.zeros((copies + 1, len(thresholds)), dtype=int)
     with Progress("counting branches", copies + 1) as progress:
@@ -306,13 +312,16 @@ def branch_counts(
 
 def _shaken(shape: Shape, share: float, rng: np.random.Generator) -> Shape:
     """A copy whose vertices have moved, ready for `delaunay_shape`."""
+    exponent = int(np.frexp(np.abs(shape.points).max())[1])
+    points = np.ldexp(shape.points, -exponent)  # a unit in which squares of lengths are ordinary floats
     ends = np.concatenate([shape.facets[:, [k, k - 1]] for k in range(shape.dimension)])
-    lengths = np.linalg.norm(np.diff(shape.points[ends], axis=1)[:, 0], axis=1)
-    sums = np.bincount(ends.ravel(), np.repeat(lengths, 2), len(shape.points))
-    mean = sums / np.maximum(np.bincount(ends.ravel(), minlength=len(shape.points)), 1)
-    step = rng.normal(size=shape.points.shape) * mean[:, None]
-    while True:
+    lengths = np.linalg.norm(np.diff(points[ends], axis=1)[:, 0], axis=1)
+    sums = np.bincount(ends.ravel(), np.repeat(lengths, 2), len(points))
+    mean = sums / np.maximum(np.bincount(ends.ravel(), minlength=len(points)), 1)
+    step = rng.normal(size=points.shape) * mean[:, None]
+    for _ in range(60):  # then the steps are below the rounding of the coordinates, and the copy is the shape
         try:
-            return conform(Shape(shape.points + share * step, shape.facets))
+            return conform(Shape(np.ldexp(points + share * step, exponent), shape.facets))
         except PolyskelError:
-            share /= 2  # ends: with a share of 0 the copy is the shape, which was accepted
+            share /= 2
+    return conform(shape)

@@ -249,12 +249,16 @@ def write(folder: Path, doctrees: Path) -> list[str]:
                 (folder / path.relative_to(ROOT)).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(path, folder / path.relative_to(ROOT))
     record, kept = folder / "copies.json", []
-    written = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+    try:
+        written = json.loads(record.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        written = {}
     for name, text in copies(doctrees).items():
         path, new = folder / "notebooks" / name, hashlib.sha256(text.encode()).hexdigest()
-        if written.get(name) == new and path.exists():
+        there = hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else None
+        if there and written.get(name) == new:
             continue
-        if path.exists() and hashlib.sha256(path.read_bytes()).hexdigest() != written.get(name):
+        if there not in (None, new, written.get(name)):
             kept.append(name)
             continue
         path.write_text(text, encoding="utf-8")
@@ -268,6 +272,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--doctrees", type=Path, default=ROOT / "_build" / "doctrees")
     options = parser.parse_args()
+    if not (options.doctrees / "environment.pickle").exists():
+        raise SystemExit("The copies have the numbers of the built book: run make book first.")
     kept = write(options.folder, options.doctrees)
     print(f"The chapters to work in are in {options.folder / 'notebooks'}.")
     if kept:

@@ -18,7 +18,8 @@ document.addEventListener("DOMContentLoaded", () => {
   const wordsLabel = make("label", { htmlFor: "claim-words" }, "words");
   const count = make("output", {});
   count.setAttribute("for", "claim-section claim-verdict claim-words");
-  const bar = make("div", { className: "claim-filter" }, sectionLabel, section, verdictLabel, verdict, wordsLabel, words, count);
+  const pair = (...parts) => make("span", {}, ...parts);
+  const bar = make("div", { className: "claim-filter" }, pair(sectionLabel, section), pair(verdictLabel, verdict), pair(wordsLabel, words), count);
   bar.setAttribute("role", "search");
   bar.setAttribute("aria-label", "Filter the register");
 
@@ -32,7 +33,8 @@ document.addEventListener("DOMContentLoaded", () => {
         || Boolean(verdict.value && card.dataset.verdict !== verdict.value) || !wanted.every((word) => text.includes(word));
     }
     for (const part of parts) part.hidden = cards.every((card) => card.hidden || card.closest("section") !== part);
-    count.textContent = `${cards.filter((card) => !card.hidden).length} of ${cards.length}`;
+    const shown = cards.filter((card) => !card.hidden).length;
+    count.textContent = `${shown} of ${cards.length}${shown ? "" : ": nothing fits all three"}`;
   };
   // A link to a card shows it, whatever is filtered.
   const reveal = () => {
@@ -44,6 +46,8 @@ document.addEventListener("DOMContentLoaded", () => {
   };
   for (const control of [section, verdict, words]) control.addEventListener("input", show);
   addEventListener("hashchange", reveal);
+  // A second click on the same link changes no hash.
+  for (const link of document.querySelectorAll('a[href^="#row-"]')) link.addEventListener("click", () => setTimeout(reveal));
   show();
   reveal();
 });

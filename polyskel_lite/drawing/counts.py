@@ -31,12 +31,15 @@ def draw_branch_counts(ax, found, most: int | None = None):
     'threshold / π'
     >>> plt.close(fig)
     """
-    counts = found.counts
+    order = np.argsort(found.thresholds, kind="stable")
+    counts = found.counts[:, order]
     values, times = np.unique(counts, return_counts=True)
     usual = int(values[times.argmax()])
-    most = 2 * usual if most is None else most
-    t = found.thresholds / np.pi
+    most = max(1, 2 * usual if most is None else most)
+    t = found.thresholds[order] / np.pi
     ends = np.concatenate([[t[0]], (t[1:] + t[:-1]) / 2, [t[-1]]])
+    if ends[0] == ends[-1]:  # one threshold, which has a width all the same
+        ends = ends + np.linspace(-0.5, 0.5, len(ends))
     rows = np.arange(len(counts) + 1) - 0.5
     cells = np.minimum(counts, most)
     # As pixels: in line art hairlines of the ground would show between the cells.
@@ -46,7 +49,10 @@ def draw_branch_counts(ax, found, most: int | None = None):
         starts = np.flatnonzero(np.diff(row, prepend=-1))
         for a, b in zip(starts, [*starts[1:], len(row)], strict=True):
             if ends[b] - ends[a] > 0.035 * len(str(row[a])) * (ends[-1] - ends[0]):
-                color, weight = "k" if row[a] > most / 2 else "w", "bold" if row[a] == usual else "normal"
+                color, weight = (
+                    "k" if cells[y, a] > most / 2 else "w",
+                    "bold" if row[a] == usual else "normal",
+                )
                 middle = (ends[a] + ends[b]) / 2
                 ax.text(middle, y, row[a], ha="center", va="center", size=8, color=color, weight=weight)
     ax.set(xlabel="threshold / π", ylim=(len(counts) - 0.5, -0.5))

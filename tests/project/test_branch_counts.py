@@ -34,7 +34,7 @@ def test_a_copy_that_would_cross_itself_is_shaken_less():
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"strategy": "surface"}, {"copies": -1}, {"shake": 1.0}, {"shake": np.nan}]
+    "wrong", [{"strategy": "surface"}, {"copies": -1}, {"shake": 1.5}, {"shake": np.nan}]
 )
 def test_wrong_options(wrong):
     with pytest.raises(psl.InputError):
@@ -51,4 +51,46 @@ def test_the_map_tells_each_run_once():
     assert sorted(words) == ["4", "4", "9", "9"]
     assert [text.get_weight() == "bold" for text in ax.texts] == [word == "4" for word in words]
     assert [label.get_text() for label in ax.get_yticklabels()] == ["as it is", "1"]
+    plt.close(fig)
+
+
+@pytest.mark.parametrize("power", [-1000, -600, 600, 1000])
+def test_any_size_has_the_same_counts(power):
+    shape = psl.datasets.load("hawaii", n=200)
+    scaled = psl.Shape(np.ldexp(shape.points, power), shape.facets)
+    first, second = (psl.branch_counts(s, thresholds=[0.3, 1], copies=2) for s in (shape, scaled))
+    assert (first.counts == second.counts).all()
+    assert (first.counts[1] != first.counts[0]).any()
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"copies": 2.5},
+        {"copies": "3"},
+        {"shake": "a"},
+        {"seed": -1},
+        {"thresholds": []},
+        {"thresholds": "abc"},
+        {"thresholds": [np.inf]},
+        {"thresholds": [[1, 2]]},
+        {"strategy": ["branch"]},
+    ],
+)
+def test_what_is_no_option_is_told(wrong):
+    with pytest.raises(psl.InputError):
+        psl.branch_counts([[(0, 0), (4, 0), (4, 3)]], **wrong)
+
+
+def test_an_option_that_is_none_is_told():
+    with pytest.raises(psl.InputError, match="treshold"):
+        psl.skeleton([[(0, 0), (4, 0), (4, 3)]], treshold=3)
+
+
+def test_one_threshold_and_no_branches_are_drawn():
+    fig, ax = plt.subplots()
+    drawing.draw_branch_counts(ax, psl.BranchCounts(np.array([2.0]), np.array([[0], [0], [9]])))
+    assert sorted(text.get_text() for text in ax.texts) == ["0", "0", "9"]
+    drawing.draw_branch_counts(ax, psl.BranchCounts(np.array([3.0, 1, 2]), np.array([[1, 5, 3]])))
+    assert [text.get_text() for text in ax.texts[3:]] == ["5", "3", "1"]
     plt.close(fig)
