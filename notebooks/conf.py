@@ -77,14 +77,20 @@ nb_mime_priority_overrides = [
 nb_ipywidgets_js = {}
 # Formulas as text, and as MathML for who cannot see them; without the menu that most of MathJax is for.
 mathjax3_config = {"loader": {"load": ["input/tex", "output/chtml", "a11y/assistive-mml"]}}
-BUNDLE = ROOT / "polyskel_lite" / "explore" / "skeleton_viewer" / "bundle.py"
-VIEWER = runpy.run_path(str(BUNDLE))["one_module"]()  # by its path: the book needs no library to be built
+# By its path: the book needs no library to be built.
+BUNDLE = runpy.run_path(str(ROOT / "polyskel_lite" / "explore" / "bundle.py"))
+#: What a page shows that moves, and the module that moves it.
+MODULES = {
+    'class="psl-viewer"': BUNDLE["one_module"](BUNDLE["VIEWER"]),
+    'class="psl-(?:toy|predict)"': BUNDLE["one_module"](BUNDLE["TOYS"], comments=False),
+}
 
 
-def add_viewer(app, pagename, templatename, context, doctree):
-    """Put the viewer's module into each page that shows one: pages read from disk may not import modules."""
-    if 'class="psl-viewer"' in context.get("body", ""):
-        app.add_js_file(None, body=VIEWER, type="module")
+def add_modules(app, pagename, templatename, context, doctree):
+    """Put the modules into each page that asks for them: pages read from disk may not import modules."""
+    for sign, module in MODULES.items():
+        if re.search(sign, context.get("body", "")):
+            app.add_js_file(None, body=module, type="module")
 
 
 globals().update(BOOK.get("sphinx", {}).get("config", {}))
@@ -144,5 +150,5 @@ def setup(app):
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)
     app.connect("html-page-context", link_claims_to_cells)
-    app.connect("html-page-context", add_viewer)
+    app.connect("html-page-context", add_modules)
     app.connect("build-finished", make_light, priority=900)  # after all who copy files

@@ -3,7 +3,6 @@
 import base64
 import json
 import re
-import runpy
 import shutil
 import subprocess
 import sys
@@ -18,6 +17,7 @@ import polyskel_lite as psl
 pytest.importorskip("anywidget", reason="the viewer needs the extra lab")
 
 from polyskel_lite import explore
+from polyskel_lite.explore.bundle import one_module
 from polyskel_lite.explore.skeleton_viewer.pack import Packer
 
 ROOM = Path(__file__).resolve().parents[2] / "polyskel_lite" / "explore" / "skeleton_viewer"
@@ -69,18 +69,17 @@ def test_bundle_holds_every_module_after_those_that_it_imports():
 
 
 def test_bundle_needs_nothing_but_the_standard_library():
-    code = f"import runpy; print(runpy.run_path({str(ROOM / 'bundle.py')!r})['one_module'](), end='')"
+    code = f"import runpy; print(runpy.run_path({str(ROOM.parent / 'bundle.py')!r})['one_module'](), end='')"
     command = [sys.executable, "-X", "utf8", "-I", "-S", "-c", code]  # -S: without site-packages
     done = subprocess.run(command, check=True, stdout=subprocess.PIPE)
     assert done.stdout.decode("utf-8").splitlines() == explore.SkeletonViewer._esm.splitlines()
 
 
 def test_modules_in_a_circle_are_refused(tmp_path):
-    shutil.copy(ROOM / "bundle.py", tmp_path)
     for name, other in ("ab", "ba"):
         (tmp_path / f"{name}.js").write_text(f'import {{ {other} }} from "./{other}.js";\n')
     with pytest.raises(ValueError, match="cycle"):
-        runpy.run_path(str(tmp_path / "bundle.py"))["one_module"]()
+        one_module(tmp_path / "a.js")
 
 
 # --- under node -------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """The skeleton viewer: a widget in JupyterLab and, with the same JavaScript, a picture on a plain page.
 
 `widget` is what Python holds, `scene` and `pack` say what the browser gets, `strip` draws the still pictures
-for readers without scripts, and `bundle` joins the JavaScript modules, of which `page.js` is the first.
+for readers without scripts; the JavaScript begins with `page.js`.
 """
 
 from .widget import SkeletonViewer, viewer

@@ -1,5 +1,5 @@
 // The skeleton viewer in JupyterLab (an anywidget) and on pages without a kernel. A page gets this module and
-// all that it imports as one, from bundle.py.
+// all that it imports as one, from ../bundle.py.
 
 import { bytesOf, unpacked } from "./data.js";
 import { make } from "./dom.js";

@@ -15,8 +15,8 @@ import numpy as np
 import traitlets
 
 from ...errors import InputError
+from ..bundle import one_module
 from . import pack
-from .bundle import one_module
 from .scene import State, as_states, description, pack_scene
 from .strip import still_pictures
 

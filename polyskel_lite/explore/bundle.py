@@ -1,0 +1,45 @@
+"""JavaScript modules as one: a page read from disk may not import others, and a widget has one.
+
+Only the standard library and nothing of this package is used here, because ``notebooks/conf.py`` runs this
+file by its path: the book can be built where neither NumPy nor the library is installed.
+"""
+
+import re
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+#: The modules to begin with: the skeleton viewer, the drawing board, and what a page without a kernel has.
+VIEWER = HERE / "skeleton_viewer" / "page.js"
+BOARD = HERE / "drawing_board" / "board.js"
+TOYS = HERE / "toys" / "page.js"
+
+# The only forms that the modules use; a test holds that nothing else is there.
+_IMPORT = re.compile(r'^import \{ [\w, ]+ \} from "(\.{1,2}/[\w/]+\.js)";\n', re.M)
+_EXPORT = re.compile(r"^export (?!default )", re.M)
+_DEFAULT = re.compile(r"^export default .*;\n", re.M)
+_COMMENT = re.compile(r"^ *//.*\n|^ */\*\*(?:.|\n)*?\*/ *\n", re.M)
+
+
+def one_module(main: Path = VIEWER, comments: bool = True) -> str:
+    """A module and all that it imports in one text, each after those that it imports.
+
+    Examples
+    --------
+    >>> text = one_module()
+    >>> text.rstrip().endswith("export default { render };"), text.count("export "), "import {" in text
+    (True, 1, False)
+    """
+    texts: dict[Path, str] = {}
+    needed: dict[Path, list[Path]] = {}
+    todo = [main.resolve()]
+    while todo:
+        file = todo.pop()
+        if file not in texts:
+            texts[file] = file.read_text(encoding="utf-8")
+            needed[file] = [(file.parent / name).resolve() for name in _IMPORT.findall(texts[file])]
+            todo += needed[file]
+    order = list(TopologicalSorter(dict(sorted(needed.items()))).static_order())
+    texts |= {file: _DEFAULT.sub("", texts[file]) for file in order[:-1]}
+    joined = "\n".join(_EXPORT.sub("", _IMPORT.sub("", texts[file])) for file in order)
+    return joined if comments else _COMMENT.sub("", joined)

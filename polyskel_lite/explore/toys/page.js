@@ -1,0 +1,3 @@
+// Explorers and questions on a page without a kernel.
+
+export default {};
