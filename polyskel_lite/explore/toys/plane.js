@@ -7,11 +7,11 @@
 import { UNIT, orientation, inBall, inGabrielBall, locate, Rational } from "./signs.js";
 
 const edgeKey = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
-const distanceTo = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
-const between = ([ax, ay], [bx, by], t) => [ax + t * (bx - ax), ay + t * (by - ay)];
+export const distanceTo = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
+export const between = ([ax, ay], [bx, by], t) => [ax + t * (bx - ax), ay + t * (by - ay)];
 
 /** The largest of all coordinates, without its sign. */
-const extentOf = (points) => points.reduce((most, [x, y]) => Math.max(most, Math.abs(x), Math.abs(y)), 0);
+export const extentOf = (points) => points.reduce((most, [x, y]) => Math.max(most, Math.abs(x), Math.abs(y)), 0);
 
 /** The power of two in which products of coordinates are ordinary floats: 1, but for huge and tiny ones. */
 function ordinary(extent) {
