@@ -3,6 +3,7 @@
 import json
 import re
 import runpy
+import sys
 import tomllib
 from html import escape
 from pathlib import Path
@@ -31,7 +32,9 @@ extensions = [
     "sphinx_exercise",
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",
+    "states",
 ]
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # the extensions of the book's own
 
 # sphinx-external-toc reads YAML, and JSON is YAML.
 external_toc_path = str(ROOT / "_build" / "toc.json")

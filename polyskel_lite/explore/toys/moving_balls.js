@@ -47,10 +47,11 @@ export class Balls extends Toy {
     this.draw("singular", { points: found.singular });
     if (found.refused) {
       this.draw("skeleton", {});
-      this.say(fill(this.given.tangent, { i: found.refused[0], j: found.refused[1] }));
+      const [i, j] = found.touching[0];
+      this.say(fill(this.given.tangent, { i, j }));
       return;
     }
-    this.draw("skeleton", { lines: found.segments, points: [...found.segments.flat(), ...found.dots] });
+    this.draw("skeleton", { lines: found.segments, points: found.dots });
     this.tell("", {
       balls: balls.length,
       needed: found.needed,

@@ -17,11 +17,16 @@ function mount(root, toys) {
   root.dataset.ready = "true";
 }
 
-/** A button in the text that brings the explorer above it, or the first one, to a state. */
-function wire(button) {
+/** Words in the text become a button that brings the explorer above them, or the first one, to a state. */
+function wire(words) {
   const all = [...document.querySelectorAll(".psl-toy")];
-  const follows = (toy) => toy.compareDocumentPosition(button) & Node.DOCUMENT_POSITION_FOLLOWING;
-  button.addEventListener("click", () => (all.findLast(follows) ?? all[0])?.toy?.set(JSON.parse(button.dataset.set)));
+  const follows = (toy) => toy.compareDocumentPosition(words) & Node.DOCUMENT_POSITION_FOLLOWING;
+  const root = all.findLast(follows) ?? all[0];
+  const onclick = () => {
+    if (!("locked" in root.dataset)) root.toy?.set(JSON.parse(words.dataset.set));
+    root.scrollIntoView({ block: "nearest" });
+  };
+  if (root) words.replaceChildren(make("button", { type: "button", title: "Show this in the picture", onclick }, words.textContent));
 }
 
 /** `toys` are the explorers of this page by name. What is far down waits until the reader comes near. */
@@ -35,5 +40,5 @@ export function start(toys) {
     }
   }), { rootMargin: "600px" });
   document.querySelectorAll(".psl-toy").forEach((root) => near.observe(root));
-  document.querySelectorAll("button.psl-set").forEach(wire);
+  document.querySelectorAll(".psl-set").forEach(wire);
 }

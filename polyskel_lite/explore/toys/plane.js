@@ -276,7 +276,8 @@ export function voronoiInShape(segments, tessellation) {
   const unit = ordinary(extent), scaled = (list) => list.map(([x, y]) => [x / unit, y / unit]);
   if (unit !== 1) {
     const found = voronoiInShape(segments.map(scaled), { ...tessellation, points: scaled(points) });
-    const pieces = found.pieces.map((piece) => piece.map(([x, y]) => [x * unit, y * unit]));
+    const back = (line) => line.map(([x, y]) => [x * unit, y * unit]);
+    const pieces = found.pieces.map(({ line, ends }) => ({ line: back(line), ends }));
     return { ...found, balls: circumballs(tessellation), pieces };
   }
   const balls = circumballs(tessellation), table = facetTable(tessellation), near = strips(segments);
@@ -298,13 +299,18 @@ export function voronoiInShape(segments, tessellation) {
     } else if (found) {
       const places = found.map(({ segment }) => asFar(segment, points[a], points[b]));
       const stops = [center, ...places, end];
-      for (let k = inside[s] ? 0 : 1; k + 1 < stops.length; k += 2) pieces.push([stops[k], stops[k + 1]]);
+      for (let k = inside[s] ? 0 : 1; k + 1 < stops.length; k += 2) {
+        const whole = k + 2 === stops.length;
+        pieces.push({ line: [stops[k], stops[k + 1]], ends: [k ? -1 : s, whole ? t : -1] });
+      }
     } else {
       const whole = rational(), from = whole.center(simplices[s]);
       const [p, q] = orientation(points[a], points[b], points[apex]) > 0 ? [a, b] : [b, a];
       const parts = whole.clip(from, t < 0 ? whole.far(from, p, q) : whole.center(simplices[t]));
       if (parts.length === 1 && parts[0][0].t === 0 && parts[0][1].t === 1) edges.push([s, t]);
-      else for (const part of parts) pieces.push(part.map(({ at }) => at));
+      else for (const [from, to] of parts) {
+        pieces.push({ line: [from.at, to.at], ends: [from.t === 0 ? s : -1, to.t === 1 ? t : -1] });
+      }
     }
   }
   return { balls, table, inside, edges, pieces, doubts };
@@ -335,7 +341,7 @@ export function sk0(points, facets) {
 
 // --- samples of a boundary ---------------------------------------------------------------------------
 
-/** n samples at equal distances along each ring, shared by length; null if there are fewer than three a ring. */
+/** n samples at equal distances along the rings, shared by length, ring by ring; null if there are fewer than three a ring. */
 export function sampleRings(rings, n, start = 0) {
   if (n < 3 * rings.length) return null;
   const along = rings.map((ring) => {
@@ -350,7 +356,7 @@ export function sampleRings(rings, n, start = 0) {
     const gain = ideal.map((x, k) => (left < 0 && share[k] <= 3 ? -Infinity : Math.sign(left) * (x - share[k])));
     share[gain.indexOf(gain.reduce((a, b) => Math.max(a, b)))] += Math.sign(left);
   }
-  return rings.flatMap((ring, r) => Array.from({ length: share[r] }, (_, i) => {
+  return rings.map((ring, r) => Array.from({ length: share[r] }, (_, i) => {
     const reach = along[r], length = lengths[r], at = ((((i + start) * length) / share[r]) % length + length) % length;
     const k = Math.min(reach.findLastIndex((x) => x <= at), ring.length - 1);
     return between(ring[k], ring[(k + 1) % ring.length], (at - reach[k]) / (reach[k + 1] - reach[k]));
