@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...containment import delaunay_shape
@@ -18,14 +20,14 @@ _NAMES = ("sk1", "sk2", "sk3", "sk0")  # in the order of the sections
 class FourMethods(Explorer):
     """See `four_methods`."""
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "alt": "Four pictures of a shape with {n} samples and a skeleton: {all}.",
         "line": "Shape: Betti {betti}. {all}",
         "crosses": "{name}: none, the polygon through the samples crosses itself",
         "missing": "{name}: none, {missing} sides are not Delaunay",
         "counts": "{name}: {vertices} vertices, {edges} edges, Betti {betti}",
     }
-    live = {name: "points" if name == "sk1" else "lines" for name in _NAMES} | {
+    live: ClassVar[dict[str, str]] = {name: "points" if name == "sk1" else "lines" for name in _NAMES} | {
         **{f"heading_{name}": "text" for name in _NAMES},
         **{"samples": "points", "missing": "lines"},
     }
