@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import json
+
 import ipywidgets
 
 from ..drawing_board.marks import fragment, pens, swatch
 
 
 def as_script(explorer: ipywidgets.VBox) -> str:
-    """An explorer (an `Explorer`) as it is now: a script element with all that a page needs to go on from here.
+    """An `Explorer` as it is now: a script element with all that a page needs to go on from here.
 
     Examples
     --------
     >>> from polyskel_lite.explore import graphs
-    >>> as_script(graphs())[:57]
-    '<script type="application/json">{"toy":"Graphs","look":"Mo'
+    >>> as_script(graphs())[:48]
+    '<script type="application/json">{"toy":"Graphs",'
     """
     board, live = explorer.board, explorer.live
     traits = ["_view", "_layers", "handles", "handle_labels", "step", "alt", "text", "_legend"]
