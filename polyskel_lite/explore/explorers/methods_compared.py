@@ -24,6 +24,7 @@ class FourMethods(Explorer):
         "alt": "Four pictures of a shape with {n} samples and a skeleton: {all}.",
         "line": "Shape: Betti {betti}. {all}",
         "crosses": "{name}: none, the polygon through the samples crosses itself",
+        "missing_1": "{name}: none, 1 side is not Delaunay",
         "missing": "{name}: none, {missing} sides are not Delaunay",
         "counts": "{name}: {vertices} vertices, {edges} edges, Betti {betti}",
     }
@@ -100,8 +101,9 @@ class FourMethods(Explorer):
         """Draw one skeleton in its own picture, and say its numbers."""
         if isinstance(skeleton, PolyskelError):
             self.board.draw(name, name, label=f"Sk_{name[2]}")
-            why = self.words["missing" if len(self._missing) else "crosses"]
-            return why.format(name=title, missing=len(self._missing))
+            count = len(self._missing)
+            why = {0: "crosses", 1: "missing_1"}.get(count, "missing")
+            return self.words[why].format(name=title, missing=count)
         lines, label = skeleton.segments() + self.offsets[name], f"Sk_{name[2]}"
         points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
         self.board.draw(name, name, lines=lines, points=points, label=label)
