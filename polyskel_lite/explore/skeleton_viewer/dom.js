@@ -17,3 +17,6 @@ export function make(tag, attributes = {}, ...children) {
   node.append(...children);
   return node;
 }
+
+/** Set an attribute; if it is so already the browser need not look at the styles again. */
+export function say(node, name, value) { if (node.getAttribute(name) !== value) node.setAttribute(name, value); }
