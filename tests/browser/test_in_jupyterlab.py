@@ -206,6 +206,35 @@ def test_the_viewer_and_python_tell_each_other_the_threshold(notebook):
     assert opened.outside() == []
 
 
+SOLID = """
+import polyskel_lite as psl
+from polyskel_lite import explore
+picture = explore.viewer(psl.datasets.load("fourbranch"), alt="Four arms.")
+picture
+"""
+
+
+def test_each_strategy_has_one_threshold_in_the_viewer_and_in_python(notebook):
+    change = 'picture.threshold = 3.0; picture.strategy = "surface"'
+    show = "print(*picture.thresholds.values(), picture.threshold)"
+    opened = notebook("solid", SOLID.strip(), show, change, show)
+    page = opened.page
+    run(page, 0)
+    root = page.locator(".psl-viewer[data-ready=true]")
+    assert float(root.get_attribute("data-threshold")) == math.pi / 3
+    root.locator("[data-control=threshold]").press("PageDown")
+    moved = float(root.get_attribute("data-threshold"))
+    root.locator("[data-control=strategy][value=wireframe]").check()
+    assert float(root.get_attribute("data-threshold")) == 2 * math.pi
+    assert run(page, 1).split() == [repr(moved), repr(2 * math.pi), repr(2 * math.pi)]
+    run(page, 2)
+    page.locator(f'.psl-viewer[data-strategy=surface][data-threshold="{moved}"]').wait_for()
+    assert run(page, 3).split() == [repr(moved), "3.0", repr(moved)]
+    root.locator("[data-control=strategy][value=wireframe]").check()
+    page.locator('.psl-viewer[data-threshold="3"]').wait_for()
+    assert opened.outside() == []
+
+
 def test_an_uploaded_file_goes_through_the_whole_chain(notebook, tmp_path):
     leaf = psl.datasets.load("leaf")
     rings = [[*leaf.points[ring].tolist(), leaf.points[ring[0]].tolist()] for ring in leaf.rings()]
