@@ -3,11 +3,13 @@
 import json
 import re
 import runpy
+import sys
 import tomllib
 from html import escape
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "notebooks"))  # for the extension that stands beside this file
 BOOK = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))
 
 
@@ -31,6 +33,7 @@ extensions = [
     "sphinx_exercise",
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",
+    "predict",
 ]
 
 # sphinx-external-toc reads YAML, and JSON is YAML.
@@ -45,7 +48,7 @@ exclude_patterns = ["_build", "**.ipynb_checkpoints"]
 html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
-html_css_files = ["book.css"]
+html_css_files = ["book.css", "predict.css"]
 html_favicon = "_static/icon.svg"
 html_show_search_summary = False  # it fetches the pages found, which a page read from disk may not do
 html_domain_indices = False  # sphinx-proof's index lists labels, which say nothing to a reader
