@@ -28,14 +28,6 @@ from sphinx.util.docutils import SphinxDirective
 OPTION = re.compile(r"- \[([ x])\] +(\S.*)")
 
 
-class prediction(nodes.General, nodes.Element):
-    """The question as a whole."""
-
-
-class answer(nodes.General, nodes.Element):
-    """What is folded on a page: the right option and the verdict."""
-
-
 def place(text: str) -> tuple[float, float, float]:
     """Three numbers: x, y and how far from there an answer still is near."""
     x, y, tolerance = map(float, text.split())
@@ -85,47 +77,36 @@ class Predict(SphinxDirective):
         if not verdict:
             raise self.error("A question needs a verdict: why the right answer is right.")
 
-        name = f"predict-{self.env.new_serialno('predict') + 1}"
-        root = prediction(ids=[name], right=right, place=target, opens=self.options.get("opens"))
-        root += self.line(self.arguments[0], "psl-question")
-        if options:
-            choices = nodes.bullet_list(classes=["psl-options"])
-            choices += [nodes.list_item("", self.line(option)) for option in options]
-            root += choices
-        folded = answer()
-        folded += [self.line(options[k], "psl-right") for k in right]
-        self.state.nested_parse(StringList(verdict.splitlines(), self.name), self.content_offset + at, folded)
-        root += folded
-        self.set_source_info(root)
-        return [root]
+        data = {"id": f"predict-{self.env.new_serialno('predict') + 1}", "data-right": " ".join(map(str, right))}
+        data["data-place"] = " ".join(f"{number:g}" for number in target or ())
+        data["data-opens"] = self.options.get("opens", "")
+        said = "".join(f' {name}="{value}"' for name, value in data.items() if value)
+        choices = nodes.bullet_list("", *(nodes.list_item("", self.line(option)) for option in options))
+        told = nodes.Element()
+        self.state.nested_parse(StringList(verdict.splitlines(), self.name), self.content_offset + at, told)
+        return [
+            html(f'<div class="psl-predict"{said}>'),
+            self.line(self.arguments[0], "psl-question"),
+            *([choices] if options else []),
+            html('<details class="psl-answer"><summary>Answer</summary>'),
+            *(self.line(options[k], "psl-right") for k in right),
+            *told.children,
+            html("</details></div>"),
+        ]
 
     def line(self, text: str, *classes: str) -> nodes.paragraph:
         """One line of Markdown as a paragraph."""
         parts, messages = self.state.inline_text(text, self.lineno)
-        return nodes.paragraph(text, "", *parts, *messages, classes=list(classes))
+        # Only a page folds the answer; elsewhere it has to be told from an option.
+        label = [nodes.raw("", "Answer: ", format="latex text")] if "psl-right" in classes else []
+        return nodes.paragraph(text, "", *label, *parts, *messages, classes=list(classes))
 
 
-def visit_prediction(writer, node: nodes.Element) -> None:
-    data = {"data-right": " ".join(map(str, node["right"]))} if node["right"] else {}
-    if node["place"]:
-        data["data-place"] = " ".join(f"{number:g}" for number in node["place"])
-    if node["opens"]:
-        data["data-opens"] = node["opens"]
-    writer.body.append(writer.starttag(node, "div", CLASS="psl-predict", **data))
-
-
-def visit_answer(writer, node: nodes.Element) -> None:
-    writer.body.append('<details class="psl-answer"><summary>Answer</summary>\n')
+def html(text: str) -> nodes.raw:
+    """What other builders leave out: they print question, options and answer one after the other."""
+    return nodes.raw("", text, format="html")
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    def nothing(writer, node: nodes.Element) -> None:
-        """Other builders print question, options and answer one after the other."""
-
-    others = {builder: (nothing, nothing) for builder in ("latex", "text", "man", "texinfo")}
-    app.add_node(
-        prediction, html=(visit_prediction, lambda writer, node: writer.body.append("</div>\n")), **others
-    )
-    app.add_node(answer, html=(visit_answer, lambda writer, node: writer.body.append("</details>\n")), **others)
     app.add_directive("predict", Predict)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,18 +1,13 @@
 // Questions before pictures. Until one is answered, the controls of the picture that it belongs to are inert, and the
 // sentence that says what to look for is hidden. Without this script the page has question, options and answer as text.
 
+import { make } from "../skeleton_viewer/dom.js";
+
 const LOCKABLE = ".psl-controls, .psl-knobs, .psl-handle, canvas";
 const CONTROL = ":is(.psl-controls, .psl-knobs) :is(input, select, button), .psl-handle";
 const MOVING = ".psl-viewer, .psl-toy, .psl-tape";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const locks = new Map(); // picture -> the questions that it waits for, and what opens it
-
-function part(tag, attributes, ...children) {
-  const made = document.createElement(tag);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
 
 /** The picture that a question is about: the next one in its section, and none beyond another question. */
 function pictureOf(asked, reach) {
@@ -34,7 +29,7 @@ function withParts(picture, act) {
 
 function lock(picture, asked) {
   if (locks.has(picture)) return locks.get(picture).questions.add(asked);
-  const note = part("p", { class: "psl-locked" }, part("a", { href: `#${asked.id}` }, "Answer the question above"), " to open the controls.");
+  const note = make("p", { class: "psl-locked" }, make("a", { href: `#${asked.id}` }, "Answer the question above"), " to open the controls.");
   const inert = (on) => { for (const one of picture.querySelectorAll(LOCKABLE)) one.inert = on; };
   const stop = withParts(picture, () => {
     inert(true);
@@ -53,9 +48,11 @@ function unlock(picture, asked) {
   if (!questions.size) open();
 }
 
+const boxOf = (told) => (told.board ?? told)._view.box;
+
 /** A ring in the picture that stands where the reader clicked, and goes where the arrow keys say. */
 function markIn(stage, [left, bottom, right, top]) {
-  const ring = part("div", { class: "psl-guess", role: "slider", tabindex: "0", "aria-label": "your mark",
+  const ring = make("div", { class: "psl-guess", role: "slider", tabindex: "0", "aria-label": "your mark",
     "aria-roledescription": "mark with two directions", "aria-valuemin": left, "aria-valuemax": right });
   const mark = { ring };
   const put = (x, y) => {
@@ -93,10 +90,10 @@ function markIn(stage, [left, bottom, right, top]) {
 
 /** The options as radio buttons under the question. */
 function choice(asked, list) {
-  const labels = [...list.children].map((item, k) => part("label", {},
-    part("input", { type: "radio", name: `${asked.id}-answer`, value: k }), part("span", {}, ...item.querySelector("p").childNodes)));
+  const labels = [...list.children].map((item, k) => make("label", {},
+    make("input", { type: "radio", name: `${asked.id}-answer`, value: k }), make("span", {}, ...item.querySelector("p").childNodes)));
   const question = asked.querySelector(".psl-question");
-  const fieldset = part("fieldset", {}, part("legend", { class: "psl-question" }, ...question.childNodes), ...labels);
+  const fieldset = make("fieldset", {}, make("legend", { class: "psl-question" }, ...question.childNodes), ...labels);
   question.remove();
   list.replaceWith(fieldset);
   return fieldset;
@@ -108,15 +105,15 @@ function ask(asked) {
   asked.dataset.ready = "true";
   if (place && !picture) return; // nothing to point at: question and answer stay as text
   const [x, y, tolerance] = (place ?? "").split(" ").map(Number);
-  const set = place ? part("p", {}, "Click in the picture, or move the ring there with the arrow keys.") : choice(asked, asked.querySelector("ul"));
-  const told = part("p", { class: "psl-said", role: "status" });
-  const button = part("button", { type: "button" }, "Lock it in"), skip = part("button", { type: "button" }, "Open without one");
-  const bar = part("div", {}, button, skip);
+  const set = place ? make("p", {}, "Click in the picture, or move the ring there with the arrow keys.") : choice(asked, asked.querySelector("ul"));
+  const told = make("p", { class: "psl-said", role: "status" });
+  const button = make("button", { type: "button" }, "Lock it in"), skip = make("button", { type: "button" }, "Open without one");
+  const bar = make("div", {}, button, skip);
   let mark = null;
   if (picture) lock(picture, asked);
   const stop = place && withParts(picture, () => {
     const stage = picture.querySelector(".psl-stage"), data = picture.querySelector("script[type='application/json']");
-    if (stage?.querySelector("svg") && !stage.contains(mark?.ring)) mark = markIn(stage, JSON.parse(data.textContent)._view.box);
+    if (stage?.querySelector("svg") && !stage.contains(mark?.ring)) mark = markIn(stage, boxOf(JSON.parse(data.textContent)));
   });
 
   const done = (verdict) => {
@@ -128,7 +125,7 @@ function ask(asked) {
     folded.hidden = false;
     if (verdict) {
       summary.textContent = "Verdict";
-      folded.querySelector("p").prepend(part("strong", {}, verdict), " ");
+      folded.querySelector("p").prepend(make("strong", {}, verdict), " ");
     }
     (picture?.querySelector(CONTROL) ?? summary).focus({ preventScroll: true });
   };
@@ -142,7 +139,7 @@ function ask(asked) {
       done(Math.hypot(at[0] - x, at[1] - y) <= tolerance ? "Near." : "Far.");
     } else {
       told.replaceChildren("You said: ", ...[...chosen.nextSibling.childNodes].map((one) => one.cloneNode(true)));
-      done(right === undefined ? "" : right.split(" ").includes(chosen.value) ? "As you said." : "Not what you said.");
+      done(right === undefined ? "" : right.split(" ").includes(chosen.value) ? "As you said:" : "Not what you said:");
     }
   });
   skip.addEventListener("click", () => { told.remove(); done(""); });
