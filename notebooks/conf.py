@@ -9,7 +9,6 @@ from html import escape
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.append(str(ROOT / "notebooks"))  # for the extension that stands beside this file
 BOOK = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))
 
 
@@ -34,7 +33,9 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",
     "predict",
+    "states",
 ]
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # the extensions of the book's own
 
 # sphinx-external-toc reads YAML, and JSON is YAML.
 external_toc_path = str(ROOT / "_build" / "toc.json")
@@ -82,18 +83,20 @@ nb_ipywidgets_js = {}
 mathjax3_config = {"loader": {"load": ["input/tex", "output/chtml", "a11y/assistive-mml"]}}
 # By its path: the book needs no library to be built.
 BUNDLE = runpy.run_path(str(ROOT / "polyskel_lite" / "explore" / "bundle.py"))
-#: What a page shows that moves, and the module that moves it.
-MODULES = {
-    'class="psl-viewer"': BUNDLE["one_module"](BUNDLE["VIEWER"]),
-    'class="psl-(?:toy|predict)"': BUNDLE["one_module"](BUNDLE["TOYS"], comments=False),
-}
+VIEWER = BUNDLE["one_module"]()
+SHEETS = [BUNDLE["BOARD"].with_name("board.css"), BUNDLE["TOYS"] / "toys.css"]
+STYLE = "".join(sheet.read_text(encoding="utf-8") for sheet in SHEETS)
 
 
 def add_modules(app, pagename, templatename, context, doctree):
     """Put the modules into each page that asks for them: pages read from disk may not import modules."""
-    for sign, module in MODULES.items():
-        if re.search(sign, context.get("body", "")):
-            app.add_js_file(None, body=module, type="module")
+    body = context.get("body", "")
+    if 'class="psl-viewer"' in body:
+        app.add_js_file(None, body=VIEWER, type="module")
+    if 'class="psl-toy"' in body or 'class="psl-predict"' in body:
+        toys = BUNDLE["page_module"](set(re.findall(r'json">{"toy":"(\w+)"', body)))
+        app.add_js_file(None, body=toys, type="module")
+        context["metatags"] = context.get("metatags", "") + f"<style>{STYLE}</style>"
 
 
 globals().update(BOOK.get("sphinx", {}).get("config", {}))

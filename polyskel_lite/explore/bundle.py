@@ -5,6 +5,7 @@ file by its path: the book can be built where neither NumPy nor the library is i
 """
 
 import re
+from collections.abc import Iterable
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -12,16 +13,17 @@ HERE = Path(__file__).resolve().parent
 #: The modules to begin with: the skeleton viewer, the drawing board, and what a page without a kernel has.
 VIEWER = HERE / "skeleton_viewer" / "page.js"
 BOARD = HERE / "drawing_board" / "board.js"
-TOYS = HERE / "toys" / "page.js"
+TOYS = HERE / "toys"
 
 # The only forms that the modules use; a test holds that nothing else is there.
 _IMPORT = re.compile(r'^import \{ [\w, ]+ \} from "(\.{1,2}/[\w/]+\.js)";\n', re.M)
 _EXPORT = re.compile(r"^export (?!default )", re.M)
 _DEFAULT = re.compile(r"^export default .*;\n", re.M)
 _COMMENT = re.compile(r"^ *//.*\n|^ */\*\*(?:.|\n)*?\*/ *\n", re.M)
+_INDENT = re.compile(r"^\s+", re.M)
 
 
-def one_module(main: Path = VIEWER, comments: bool = True) -> str:
+def one_module(main: Path = VIEWER) -> str:
     """A module and all that it imports in one text, each after those that it imports.
 
     Examples
@@ -30,16 +32,37 @@ def one_module(main: Path = VIEWER, comments: bool = True) -> str:
     >>> text.rstrip().endswith("export default { render };"), text.count("export "), "import {" in text
     (True, 1, False)
     """
-    texts: dict[Path, str] = {}
+    return _joined(main.resolve(), main.read_text(encoding="utf-8"))
+
+
+def page_module(toys: Iterable[str] = ()) -> str:
+    """The JavaScript of a page with questions and these explorers, without comments and indentation.
+
+    Examples
+    --------
+    >>> text = page_module(["Graphs"])
+    >>> len(text.encode()) < 60_000, "class Graphs " in text, "class Balls " in text
+    (True, True, False)
+    """
+    names = sorted(toys)
+    written = {file: file.read_text(encoding="utf-8") for file in sorted(TOYS.glob("*.js"))}
+    homes = {name: file.name for name in names for file in written if f"export class {name} " in written[file]}
+    lines = [f'import {{ {name} }} from "./{homes[name]}";\n' for name in names]
+    main = f'import {{ start }} from "./page.js";\n{"".join(lines)}\nstart({{ {", ".join(names)} }});\n'
+    return _INDENT.sub("", _COMMENT.sub("", _joined(TOYS / "main.js", main)))
+
+
+def _joined(main: Path, text: str) -> str:
+    texts = {main: text}
     needed: dict[Path, list[Path]] = {}
-    todo = [main.resolve()]
+    todo = [main]
     while todo:
         file = todo.pop()
         if file not in texts:
             texts[file] = file.read_text(encoding="utf-8")
+        if file not in needed:
             needed[file] = [(file.parent / name).resolve() for name in _IMPORT.findall(texts[file])]
             todo += needed[file]
     order = list(TopologicalSorter(dict(sorted(needed.items()))).static_order())
     texts |= {file: _DEFAULT.sub("", texts[file]) for file in order[:-1]}
-    joined = "\n".join(_EXPORT.sub("", _IMPORT.sub("", texts[file])) for file in order)
-    return joined if comments else _COMMENT.sub("", joined)
+    return "\n".join(_EXPORT.sub("", _IMPORT.sub("", texts[file])) for file in order)

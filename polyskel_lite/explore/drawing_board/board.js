@@ -13,7 +13,7 @@ function element(tag, parent, attributes = {}) {
 
 const short = (number) => String(Number(number.toPrecision(3)));
 
-function render({ model, el }) {
+export function render({ model, el }) {
   const root = element("div", el, { class: "psl-board", "data-busy": "false", "data-answers": "0",
     "data-lm-suppress-shortcuts": "true" });
   const stage = element("div", root, { class: "psl-stage" });

@@ -12,6 +12,7 @@ import traitlets
 
 from ...checks import as_points
 from ...errors import InputError
+from ..bundle import BOARD, one_module
 from .marks import OPTIONS, PIXEL, Layer, View, fragment, kind_of, swatch
 
 _HERE = Path(__file__).parent
@@ -62,7 +63,7 @@ class Board(anywidget.AnyWidget):
     1
     """
 
-    _esm = _HERE / "board.js"
+    _esm = one_module(BOARD)
     _css = _HERE / "board.css"
 
     handles = traitlets.Any(default_value=()).tag(sync=True)
@@ -85,7 +86,7 @@ class Board(anywidget.AnyWidget):
     ):
         self.layers: dict[str, Layer] = {}
         self._seen: dict[str, bool] = {}
-        self._plane = View(box, width)
+        self.view = View(box, width)
         super().__init__(alt=alt, handle_labels=list(handle_labels), **self._frame())
         self.handles = () if handles is None else handles
         self.on_msg(self._receive)
@@ -95,11 +96,11 @@ class Board(anywidget.AnyWidget):
     @property
     def box(self) -> tuple[float, float, float, float]:
         """The part of the plane that is shown, (xmin, ymin, xmax, ymax); settable."""
-        return self._plane.box
+        return self.view.box
 
     @box.setter
     def box(self, box) -> None:
-        self._plane = View(box, self._plane.size[0] // PIXEL)
+        self.view = View(box, self.view.size[0] // PIXEL)
         with self.hold_sync():
             for name, value in self._frame().items():
                 setattr(self, name, value)
@@ -109,9 +110,9 @@ class Board(anywidget.AnyWidget):
 
     def _frame(self) -> dict[str, object]:
         """The traits that follow from the part of the plane shown."""
-        xmin, ymin, xmax, ymax = box = self._plane.box
+        xmin, ymin, xmax, ymax = box = self.view.box
         step = (xmax - xmin + ymax - ymin) / 400
-        return {"step": step, "_view": {"box": list(box), "size": list(self._plane.size)}}
+        return {"step": step, "_view": {"box": list(box), "size": list(self.view.size)}}
 
     def draw(self, name: str, kind: str, visible: bool = True, **contents) -> None:
         """Draw a layer, or draw it anew.
@@ -197,9 +198,9 @@ class Board(anywidget.AnyWidget):
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 500" role="img" ...
         """
         alt = html.escape(self.alt if alt is None else alt)
-        width, height = self._plane.size
+        width, height = self.view.size
         body = "".join(f"<g>{picture}</g>" for name in self._layers if (picture := self.picture(name)))
-        dots = "".join(f'<circle cx="{x}" cy="{y}" r="70"/>' for x, y in self._plane.place(self.handles))
+        dots = "".join(f'<circle cx="{x}" cy="{y}" r="70"/>' for x, y in self.view.place(self.handles))
         if dots:
             body += f'<g fill="#ffffff" stroke="#000000" stroke-width="25">{dots}</g>'
         style = f"width:100%;max-width:{width // PIXEL}px;height:auto;background:#ffffff"
@@ -219,7 +220,7 @@ class Board(anywidget.AnyWidget):
         return self._legend
 
     def _show(self, name: str) -> None:
-        picture = fragment(self.layers[name], self._plane) if self._seen[name] else ""
+        picture = fragment(self.layers[name], self.view) if self._seen[name] else ""
         setattr(self, f"_svg_{name}", picture)
 
     def _arrange(self) -> None:
@@ -236,7 +237,7 @@ class Board(anywidget.AnyWidget):
         value = proposal["value"]
         if len(value) == 0:
             return ()
-        xmin, ymin, xmax, ymax = self._plane.box
+        xmin, ymin, xmax, ymax = self.view.box
         places = np.clip(as_points(value, name="handles", dimensions=(2,)), [xmin, ymin], [xmax, ymax])
         return tuple(map(tuple, places.tolist()))
 

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...drawing import Kind, kind_of
+from ...drawing import Kind, clip_segments, kind_of
 from ...errors import InputError
 
 #: Units of a picture a pixel has, and those a typographic point has (96 pixels an inch, 72 points).
@@ -102,6 +102,9 @@ class View:
         self.box = tuple(box.tolist())
         self.scale = PIXEL * width / (box[2] - box[0])
         self.size = (PIXEL * width, round(self.scale * (box[3] - box[1])))
+        room = 0.1 * (box[2] - box[0])
+        #: Lower and upper corner of the part that lines are cut to: no end of one is seen at the rim.
+        self.around = np.array([box[:2] - room, box[2:] + room])
 
     def place(self, points) -> np.ndarray:
         """Points (k, 2) of the plane in whole units of the picture, y downward."""
@@ -124,31 +127,63 @@ def fragment(layer: Layer, view: View) -> str:
     >>> fragment(Layer("samples", points=[(1, 0.5)]), view)
     '<path d="M3200 1600h0" fill="none" stroke="#000000" stroke-width="47" stroke-linecap="round"/>'
     """
-    kind = kind_of(layer.kind)
-    lines = _lines(layer.lines, view) + _arcs(*layer.arcs, view)
-    parts = []
-    pen = f" {_pen(kind, layer.width)}" if layer.stroke else ""
-    if areas := _polygons(layer.polygons, view):
-        paint = f'fill="{kind.fill or kind.color}" fill-rule="{layer.rule}"' if layer.fill else 'fill="none"'
-        parts.append(f'<path d="{areas}" {paint}{pen}/>')
-    if discs := _circles(*layer.circles, view):
-        # Outlines first, twice as wide, then all insides over them: the outline of the union is left.
-        paint = f'fill="{kind.fill or kind.color}" paint-order="stroke"' if layer.fill else 'fill="none"'
-        outline = f" {_pen(kind, 2 * layer.width if layer.fill else layer.width)}" if layer.stroke else ""
-        parts.append(f'<path d="{discs}" {paint}{outline}/>')
-    if lines:
-        parts.append(f'<path d="{lines}" fill="none" {_pen(kind, layer.width)}/>')
-    if len(layer.points):
-        parts.append(_markers(kind, view.place(layer.points), layer.width))
-    parts += [_text(kind, view, *entry) for entry in layer.text]
+    pen = pens(layer)
+    paths = {
+        "polygons": _polygons(layer.polygons, view),
+        "circles": _circles(*layer.circles, view),
+        "lines": _lines(layer.lines, view) + _arcs(*layer.arcs, view),
+        "points": _fill_in(f"M%d %d{pen['mark']}", view.place(layer.points)) if len(layer.points) else "",
+    }
+    parts = [f'<path d="{d}" {pen[name]}/>' for name, d in paths.items() if d]
+    parts += [_text(pen["text"], view, *entry) for entry in layer.text]
     body = "".join(parts)
-    return f'<g opacity="{layer.opacity:g}">{body}</g>' if body and layer.opacity != 1 else body
+    return f'<g opacity="{pen["opacity"]}">{body}</g>' if body and layer.opacity != 1 else body
 
 
-def swatch(layer: Layer) -> str:
-    """The entry of one layer in a legend: HTML of a small picture and its label."""
-    filled = bool(len(layer.polygons) or len(layer.circles[0]))
-    dotted = not len(layer.lines) and bool(len(layer.points) or kind_of(layer.kind).marker)
+def pens(layer: Layer) -> dict[str, str]:
+    """How a layer is drawn, whatever it holds: attributes of its elements, and the way around a point.
+
+    A page without a kernel draws with these (see ``toys/marks.js``), so that looks are said once.
+
+    Examples
+    --------
+    >>> pens(Layer("samples"))["lines"]
+    'fill="none" stroke="#000000" stroke-width="11" stroke-linejoin="round"'
+    """
+    kind = kind_of(layer.kind)
+    paint = f'fill="{kind.fill or kind.color}"' if layer.fill else 'fill="none"'
+    rule = f' fill-rule="{layer.rule}"' if layer.fill else ""
+    # Outlines of discs first, twice as wide, then all insides over them: the outline of the union is left.
+    first, wider = (' paint-order="stroke"', 2) if layer.fill else ("", 1)
+    pen = f" {_pen(kind, layer.width)}" if layer.stroke else ""
+    rim = f" {_pen(kind, wider * layer.width)}" if layer.stroke else ""
+    size = (kind.markersize or 3.5) * layer.width * POINT
+    half = round(0.7 * size)
+    # A line of length zero with round ends is a dot.
+    dot = f'fill="none" stroke="{kind.color}" stroke-width="{size:.0f}" stroke-linecap="round"'
+    diamond = f"m0 {-half}l{half} {half} {-half} {half} {-half} {-half}z"
+    return {
+        "polygons": f"{paint}{rule}{pen}",
+        "circles": f"{paint}{first}{rim}",
+        "lines": f'fill="none" {_pen(kind, layer.width)}',
+        "points": f'fill="{kind.color}"' if kind.marker == "D" else dot,
+        "mark": diamond if kind.marker == "D" else "h0",
+        "text": f'font-size="130" font-family="sans-serif" fill="{kind.color}"',
+        "opacity": f"{layer.opacity:g}",
+    }
+
+
+def swatch(layer: Layer, like: str = "") -> str:
+    """The entry of one layer in a legend: HTML of a small picture and its label.
+
+    Examples
+    --------
+    >>> swatch(Layer("sk2", label="Sk_2")).endswith("</svg> Sk<sub>2</sub></span>")
+    True
+    """
+    filled = bool(len(layer.polygons) or len(layer.circles[0])) or like in ("polygons", "circles")
+    dotted = bool(len(layer.points) or kind_of(layer.kind).marker) or like == "points"
+    dotted = dotted and not len(layer.lines) and like != "lines"
     return _swatch(
         layer.kind, layer.label, filled, dotted, layer.fill, layer.stroke, layer.width, layer.opacity
     )
@@ -189,23 +224,9 @@ def _pen(kind: Kind, width: float) -> str:
     return pen
 
 
-def _markers(kind: Kind, xy: np.ndarray, width: float) -> str:
-    size = (kind.markersize or 3.5) * width * POINT
-    if kind.marker == "D":
-        half = round(0.7 * size)
-        d = _fill_in(f"M%d %dl{half} {half} {-half} {half} {-half} {-half}z", xy - [0, half])
-        return f'<path d="{d}" fill="{kind.color}"/>'
-    # A line of length zero with round ends is a dot.
-    d = _fill_in("M%d %dh0", xy)
-    pen = f'stroke="{kind.color}" stroke-width="{size:.0f}" stroke-linecap="round"'
-    return f'<path d="{d}" fill="none" {pen}/>'
-
-
-def _text(kind: Kind, view: View, x: float, y: float, text: str) -> str:
+def _text(look: str, view: View, x: float, y: float, text: str) -> str:
     (px, py), words = view.place([(x, y)])[0], html.escape(str(text))
-    return (
-        f'<text x="{px}" y="{py}" font-size="130" font-family="sans-serif" fill="{kind.color}">{words}</text>'
-    )
+    return f'<text x="{px}" y="{py}" {look}>{words}</text>'
 
 
 def _fill_in(pattern: str, numbers: np.ndarray) -> str:
@@ -220,7 +241,8 @@ def _polygons(rings, view: View) -> str:
 
 def _lines(lines, view: View) -> str:
     if isinstance(lines, np.ndarray) and lines.ndim == 3 and lines.shape[1:] == (2, 2):
-        return _fill_in("M%d %dL%d %d", view.place(lines).reshape(-1, 4))
+        # Browsers draw lines of a million pixels slowly: what is out of sight is cut off.
+        return _fill_in("M%d %dL%d %d", view.place(clip_segments(lines, view.around)).reshape(-1, 4))
     return "".join("M" + _fill_in("%d %d ", view.place(line)).strip() for line in lines)
 
 

@@ -15,11 +15,17 @@ from ...drawing import chains
 from ...errors import InputError, PolyskelError
 from ...shapes import Shape, check_shape
 from ..drawing_board import Board
+from ..toys import as_script
 
 #: What the stored page says where the controls would be.
 NEEDS_KERNEL = (
     "The controls of this picture need a running Python: open this chapter in JupyterLab "
     "(<code>make lab</code>, or a launch button of this page) and run its cells."
+)
+#: The same where the page has JavaScript that moves the picture.
+NEEDS_SCRIPT = (
+    "This picture moves on a page with JavaScript, and in JupyterLab (<code>make lab</code>, or a launch "
+    "button of this page)."
 )
 
 
@@ -71,6 +77,11 @@ class Explorer(WithStandIn):
         What the line under the board says, as values: for tests, and for readers who go on computing.
     error : PolyskelError or None
         Why the last change could not be drawn; its sentence then stands under the board.
+    words : dict of str to str
+        Sentences with places for values, ``{n}``; a page without a kernel has them from here.
+    live : dict of str to str
+        Layers that such a page draws by itself (`polyskel_lite.explore.toys`), and as what the legend shows
+        each: "lines", "points", "circles" or "polygons". None: the picture stands still there.
 
     Examples
     --------
@@ -110,6 +121,9 @@ class Explorer(WithStandIn):
         super().__init__([hint, row, board])
         self.add_class("psl-explorer")  # board.js looks for it
         self.update()
+
+    words: Mapping[str, str] = {}
+    live: Mapping[str, str] = {}
 
     #: Puts everything on the board for the present controls and handles; every explorer says how.
     draw: Callable[[], None]
@@ -152,6 +166,10 @@ class Explorer(WithStandIn):
             self._drawing = False
         self.update()
 
+    def given(self) -> dict[str, object]:
+        """What a page without a kernel needs to draw by itself: numbers and lists."""
+        return {}
+
     def tell(self, remark: str = "", /, **numbers) -> None:
         """Set `numbers`, and the line under the board to a remark and the numbers with their names."""
         line = " · ".join(f"{name.replace('_', ' ')} {said(value)}" for name, value in numbers.items())
@@ -167,14 +185,16 @@ class Explorer(WithStandIn):
         Returns
         -------
         str
-            A figure with alternative text, what to look for, the numbers, and where the controls are.
+            A figure with alternative text, what to look for, the numbers, and where the controls are; with
+            it, where there are `live` layers, what the page needs to move them.
         """
-        return (
+        figure = (
             f'<figure class="psl-explorer" style="margin:0">{self.board.svg()}<figcaption>'
             f'<div style="font-size:0.85em">{self.board.legend}</div>'
             f"<p>{html.escape(self.look_for)}</p><p>{html.escape(self.board.text)}</p>"
-            f"<p><em>{NEEDS_KERNEL}</em></p></figcaption></figure>"
+            f"<p><em>{NEEDS_SCRIPT if self.live else NEEDS_KERNEL}</em></p></figcaption></figure>"
         )
+        return f'<div class="psl-toy">{as_script(self)}{figure}</div>' if self.live else figure
 
 
 def flat_shape(shape: Shape | None, topic: str) -> Shape:
@@ -191,6 +211,17 @@ def flat_shape(shape: Shape | None, topic: str) -> Shape:
     if shape.dimension != 2:
         raise InputError(f"the explorer of {topic} is for shapes of the plane; this one is a solid.")
     return shape
+
+
+def rings_of(shape: Shape) -> dict[str, list]:
+    """The rings of a shape of the plane as lists of corners, for `Explorer.given`.
+
+    Examples
+    --------
+    >>> len(rings_of(load("lake"))["rings"])
+    3
+    """
+    return {"rings": [shape.points[ring].tolist() for ring in shape.rings()]}
 
 
 def refined(shape: Shape | DelaunayShape, to: str | None = None) -> DelaunayShape:

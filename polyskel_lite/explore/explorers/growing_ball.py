@@ -8,7 +8,7 @@ import numpy as np
 from ...shapes import Shape
 from ...skeletons import contact_points, grown_ball, sk1, sk2
 from ..drawing_board import Board, box_around
-from .explorer import Explorer, flat_shape
+from .explorer import Explorer, flat_shape, rings_of, said
 
 #: A centre counts as on the skeleton when it is nearer to it than this share of the picture's width (three
 #: pixels).
@@ -20,6 +20,18 @@ EDGE = 1e-6
 class MaximalBall(Explorer):
     """See `maximal_ball`."""
 
+    words = {
+        "alt": "A shape, a ball of radius {radius} in it that touches the boundary in {contacts} points.",
+        "alt_with_trace": "A shape, a ball of radius {radius} in it that touches the boundary in {contacts} "
+        "points, and {kept} centres of maximal balls.",
+        "alt_outside": "A shape; the chosen centre is not inside it.",
+        "outside": "No ball: the centre is not inside the shape. Drag it back in.",
+        "there": "The centre is on the skeleton: its ball is maximal, it cannot grow.",
+        "grown": "Grown until it is maximal: the centre has moved onto the skeleton.",
+        "growing": "Not maximal: a larger ball in the shape holds this one.",
+    }
+    live = {"ball": "circles", "contacts": "points", "way": "lines", "trace": "points"}
+
     def __init__(self, shape: Shape | None = None, center=None):
         self.shape = flat_shape(shape, "maximal balls")
         self._seen: list[np.ndarray] = []
@@ -30,6 +42,8 @@ class MaximalBall(Explorer):
         )
         rings = [self.shape.points[ring] for ring in self.shape.rings()]
         board.draw("shape", "shape", polygons=rings, label="shape X")
+        lines = sk2(self.shape).segments()
+        board.draw("skeleton", "sk2", False, lines=lines, label="Sk_2 of the corners")
         controls = {
             "growth": ipywidgets.FloatSlider(1.0, min=0, max=1, step=0.02, description="growth"),
             "trace": ipywidgets.Checkbox(
@@ -49,31 +63,27 @@ class MaximalBall(Explorer):
         share, trace, skeleton = (self.controls[name].value for name in ("growth", "trace", "skeleton"))
         if not trace:
             self._seen.clear()
-        self._draw_skeleton(skeleton)
+        board.show("skeleton", skeleton)
         start, width = np.array(board.handles[0]), board.box[2] - board.box[0]
         if not shape.contains([start])[0] or shape.boundary_distance([start])[0] < EDGE * width:
             self._draw_ball(start, None)
-            board.alt = "A shape; the chosen centre is not inside it."
-            self.tell("No ball: the centre is not inside the shape. Drag it back in.")
+            board.alt = self.words["alt_outside"]
+            self.tell(self.words["outside"])
             return
         radius, center, full = grown_ball(shape, start)
         moved = float(np.hypot(*(center - start)))
         if moved <= SNAP * width:
-            remark, share = "The centre is on the skeleton: its ball is maximal, it cannot grow.", 1.0
-        elif share == 1:
-            remark = "Grown until it is maximal: the centre has moved onto the skeleton."
+            remark, share = "there", 1.0
         else:
-            remark = "Not maximal: a larger ball in the shape holds this one."
+            remark = "grown" if share == 1 else "growing"
         if trace:
             self._seen = [*self._seen[-1999:], center]
         size = radius + share * (full - radius)
         contacts = self._draw_ball(start + share * (center - start), size)
-        board.alt = (
-            f"A shape, a ball of radius {size:.3g} in it that touches the boundary in {contacts} points"
-            + (f", and {len(self._seen)} centres of maximal balls." if self._seen else ".")
-        )
+        alt = self.words["alt_with_trace" if self._seen else "alt"]
+        board.alt = alt.format(radius=said(size), contacts=contacts, kept=len(self._seen))
         self.tell(
-            remark,
+            self.words[remark],
             contacts=contacts,
             radius=size,
             radius_at_the_dot=radius,
@@ -93,11 +103,8 @@ class MaximalBall(Explorer):
         board.draw("trace", "sk0", points=trace, width=1.5, label="centres of maximal balls")
         return len(contacts)
 
-    def _draw_skeleton(self, wanted: bool) -> None:
-        if wanted and "skeleton" not in self.board.layers:
-            self.board.draw("skeleton", "sk2", lines=sk2(self.shape).segments(), label="Sk_2 of the corners")
-        elif "skeleton" in self.board.layers:
-            self.board.show("skeleton", wanted)
+    def given(self) -> dict[str, object]:
+        return rings_of(self.shape) | {"snap": SNAP, "edge": EDGE}
 
 
 def maximal_ball(shape: Shape | None = None, center=None) -> MaximalBall:

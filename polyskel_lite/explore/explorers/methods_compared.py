@@ -10,13 +10,25 @@ from ...graphs import delaunay
 from ...shapes import Shape
 from ...skeletons import Skeleton, sk0, sk1, sk2, sk3
 from ..drawing_board import Board, box_around
-from .explorer import Explorer, flat_shape, sample_sliders
+from .explorer import Explorer, flat_shape, rings_of, sample_sliders
 
 _NAMES = ("sk1", "sk2", "sk3", "sk0")  # in the order of the sections
 
 
 class FourMethods(Explorer):
     """See `four_methods`."""
+
+    words = {
+        "alt": "Four pictures of a shape with {n} samples and a skeleton: {all}.",
+        "line": "Shape: Betti {betti}. {all}",
+        "crosses": "{name}: none, the polygon through the samples crosses itself",
+        "missing": "{name}: none, {missing} sides are not Delaunay",
+        "counts": "{name}: {vertices} vertices, {edges} edges, Betti {betti}",
+    }
+    live = {name: "points" if name == "sk1" else "lines" for name in _NAMES} | {
+        **{f"heading_{name}": "text" for name in _NAMES},
+        **{"samples": "points", "missing": "lines"},
+    }
 
     def __init__(self, shape: Shape | None = None, n: int = 96, start: float = 0.7):
         self.shape = flat_shape(shape, "the four methods")
@@ -67,25 +79,31 @@ class FourMethods(Explorer):
         counts = {f"Sk{name[2]}": _counts(found[name]) for name in _NAMES}
         words = []
         for name, (title, numbers) in zip(_NAMES, counts.items(), strict=True):
-            words.append(f"{title}: {self._draw_one(name, found[name], numbers)}")
+            words.append(self._draw_one(name, found[name], numbers or {}, title))
             heading = (*(self._heading + self.offsets[name]), words[-1])
             board.draw(f"heading_{name}", "samples", text=[heading])
         shift = self.offsets["sk0"]
-        label = "sides that are not Delaunay" if len(self._missing) else None
+        label = "sides that are not Delaunay"
         board.draw("missing", "samples", lines=self._missing + shift, width=3, label=label)
-        board.alt = f"Four pictures of a shape with {len(E)} samples and a skeleton: {'; '.join(words)}."
-        self.say(f"Shape: Betti {betti}. " + " · ".join(words), counts | {"shape": betti, "n": len(E)})
+        board.alt = self.words["alt"].format(n=len(E), all="; ".join(words))
+        line = self.words["line"].format(betti=betti, all=" · ".join(words))
+        self.say(line, counts | {"shape": betti, "n": len(E)})
 
-    def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError, counts: dict | None) -> str:
+    def given(self) -> dict[str, object]:
+        offsets = {name: offset.tolist() for name, offset in self.offsets.items()}
+        about = {"betti": self.shape.betti(), "offsets": offsets, "heading": self._heading}
+        return rings_of(self.shape) | about
+
+    def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError, counts: dict, title: str) -> str:
         """Draw one skeleton in its own picture, and say its numbers."""
         if isinstance(skeleton, PolyskelError):
-            self.board.draw(name, name)
-            crossing = "none, the polygon through the samples crosses itself"
-            return f"none, {len(self._missing)} sides are not Delaunay" if len(self._missing) else crossing
+            self.board.draw(name, name, label=f"Sk_{name[2]}")
+            why = self.words["missing" if len(self._missing) else "crosses"]
+            return why.format(name=title, missing=len(self._missing))
         lines, label = skeleton.segments() + self.offsets[name], f"Sk_{name[2]}"
         points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
         self.board.draw(name, name, lines=lines, points=points, label=label)
-        return "{vertices} vertices, {edges} edges, Betti {betti}".format(**counts)
+        return self.words["counts"].format(name=title, **counts)
 
 
 def _counts(skeleton: Skeleton | PolyskelError) -> dict | None:

@@ -6,7 +6,7 @@ import ipywidgets
 import numpy as np
 
 from ...drawing import clip_segments, ray_segments
-from ...errors import InputError, PolyskelError
+from ...errors import InputError, PolyskelError, TangentBallsError
 from ...polyballs import Polyball
 from ...skeletons import Skeleton, voronoi
 from ..drawing_board import Board
@@ -73,6 +73,18 @@ class Balls(Explorer):
         As it is now.
     """
 
+    words = {
+        "full": f"{MOST} balls are as many as can be moved by hand; remove one first.",
+        "last": "One ball has to stay.",
+        "ball": "ball {i}",
+        "centre": "centre of ball {i}",
+        "rim": "rim of ball {i}",
+    }
+    live = {
+        **{"spokes": "lines", "balls": "circles", "rims": "circles", "boundary": "lines"},
+        **{"voronoi": "lines", "singular": "points", "skeleton": "lines"},
+    }
+
     def __init__(self, Y: Polyball):
         self._centers, self._radii = Y.centers.copy(), Y.radii.copy()
         self._angles = np.full(len(Y), np.pi / 4)
@@ -108,7 +120,7 @@ class Balls(Explorer):
         """
         xmin, ymin, xmax, ymax = self.board.box
         if len(self._radii) >= MOST:
-            self.board.text = f"{MOST} balls are as many as can be moved by hand; remove one first."
+            self.board.text = self.words["full"]
             return
         center = ((xmin + xmax) / 2, (ymin + ymax) / 2) if center is None else center
         radius = 0.12 * (ymax - ymin) if radius is None else radius
@@ -120,7 +132,7 @@ class Balls(Explorer):
     def remove(self, index: int) -> None:
         """Remove a ball; the last one stays."""
         if len(self._radii) == 1:
-            self.board.text = "One ball has to stay."
+            self.board.text = self.words["last"]
             return
         self._centers, self._radii, self._angles = (
             np.delete(array, index, axis=0) for array in (self._centers, self._radii, self._angles)
@@ -139,7 +151,8 @@ class Balls(Explorer):
         """Take over what was moved, and draw the union and its skeleton."""
         self._take_over()
         Y, board = self.polyball, self.board
-        board.handle_labels = [f"{part} of ball {i + 1}" for i in range(len(Y)) for part in ("centre", "rim")]
+        numbers = range(1, len(Y) + 1)
+        board.handle_labels = [self.words[part].format(i=i) for i in numbers for part in ("centre", "rim")]
         board.handles = self._handles()
         self._placed = np.array(board.handles)
         board.draw("spokes", "balls", lines=self._placed.reshape(-1, 2, 2), width=0.7, order=1.7)
@@ -147,12 +160,16 @@ class Balls(Explorer):
         try:
             skeleton = Y.skeleton()
         except PolyskelError:
-            board.draw("skeleton", "sk2")
+            board.draw("skeleton", "sk2", width=1.4, label="skeleton of the union")
             self.numbers = {}
             raise  # its sentence is shown under the board
         lines, dots = skeleton.segments(), skeleton.vertices
         board.draw("skeleton", "sk2", lines=lines, points=dots, width=1.4, label="skeleton of the union")
         self.tell(**ball_numbers(Y, skeleton))
+
+    def given(self) -> dict[str, object]:
+        balls = {"centers": self._centers.tolist(), "radii": self._radii.tolist(), "most": MOST}
+        return balls | {"tangent": _tangent_sentence()}
 
     def _draw_boundary(self, Y: Polyball) -> None:
         """The balls, their union, its singular points and their Voronoi graph."""
@@ -209,7 +226,16 @@ def _voronoi_lines(points: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 def _ball_names(count: int) -> list[tuple[str, int]]:
-    return [(f"ball {i + 1}", i) for i in range(count)]
+    return [(Balls.words["ball"].format(i=i + 1), i) for i in range(count)]
+
+
+def _tangent_sentence() -> str:
+    """Why there is no skeleton where two balls touch, with places for their numbers."""
+    try:
+        Polyball([(0, 0), (2, 0)], [1, 1]).skeleton()
+    except TangentBallsError as error:
+        return str(error).replace("balls 0 and 1", "balls {i} and {j}")
+    raise AssertionError("two tangent balls were accepted")
 
 
 def balls(polyball: Polyball | None = None) -> Balls:

@@ -23,6 +23,15 @@ START = (
 class Graphs(Explorer):
     """See `graphs`."""
 
+    words = {
+        "alt": "{n} dots; graphs: {graphs}.",
+        "alt_with_ball": "{n} dots; graphs: {graphs}; the empty disc through the corners of triangle {number}.",
+        "none": "none",
+        "lost": "Samples {rest} and {last} are no triangle any more: a sample came into their ball.",
+        "in_line": "The samples are on one line, or two at one place: there is no triangle.",
+    }
+    live = {name: "lines" for name in _WORDS} | {"ball": "circles", "center": "points"}
+
     def __init__(self, points=START):
         points = as_points(points, dimensions=(2,))
         if len(points) > 40:
@@ -59,14 +68,13 @@ class Graphs(Explorer):
         for name, segments in lines.items():
             board.draw(name, name, name in chosen, lines=segments, label=_WORDS[name])
         number = self.controls["triangle"].value
-        ball = slice(number, number + 1) if number >= 0 else slice(0)
+        ball = self._rows[number : number + 1] if number >= 0 else []
         center, radius = graph.circumcenters[ball], graph.circumradii[ball]
         board.draw("ball", "balls", circles=(center, radius), label="ball of one triangle")
         board.draw("center", "voronoi", points=center, width=2)
-        board.alt = (
-            f"{len(graph.points)} dots; graphs: {', '.join(_WORDS[name] for name in chosen) or 'none'}"
-            + (f"; the empty disc through the corners of triangle {number}." if len(radius) else ".")
-        )
+        names = ", ".join(_WORDS[name] for name in chosen) or self.words["none"]
+        alt = self.words["alt_with_ball" if len(radius) else "alt"]
+        board.alt = alt.format(n=len(graph.points), graphs=names, number=number)
         self.tell(
             remark,
             samples=len(graph.points),
@@ -77,10 +85,16 @@ class Graphs(Explorer):
             **({"radius_of_the_ball": float(radius[0])} if len(radius) else {}),
         )
 
+    def given(self) -> dict[str, object]:
+        return {"graphs": _WORDS}
+
     def _follow(self, graph: Tessellation) -> str:
         """Keep the ball on its triangle while samples move; a sentence when that triangle is gone."""
         slider = self.controls["triangle"]
-        triangles = [frozenset(corners) for corners in graph.simplices.tolist()]
+        # By their corners, so that a triangle has one number wherever it was computed.
+        triples = np.sort(graph.simplices, axis=1)
+        self._rows = np.lexsort(triples.T[::-1])
+        triangles = [frozenset(corners) for corners in triples[self._rows].tolist()]
         slider.max = len(triangles) - 1
         if slider.value < 0:
             return ""
@@ -90,8 +104,7 @@ class Graphs(Explorer):
                 slider.value = triangles.index(self._corners)
             else:
                 *rest, last = map(str, sorted(self._corners))
-                names = f"{', '.join(rest)} and {last}"
-                lost = f"Samples {names} are no triangle any more: a sample came into their ball."
+                lost = self.words["lost"].format(rest=", ".join(rest), last=last)
         self._number, self._corners = slider.value, triangles[slider.value]
         return lost
 

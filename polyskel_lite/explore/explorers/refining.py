@@ -69,6 +69,11 @@ class Refinement(Explorer):
         All rounds for the graph chosen.
     """
 
+    live = {
+        **{"balls": "circles", "there": "lines", "missing": "lines"},
+        **{"samples": "points", "added": "points", "intruders": "points"},
+    }
+
     def __init__(self, shape: Shape):
         self._stages = cache(lambda to: list(conform_stages(shape, to)))
         self._stages("gabriel")  # here, so that what cannot be refined is refused
@@ -79,7 +84,7 @@ class Refinement(Explorer):
         step = ipywidgets.IntSlider(0, min=0, max=1, description="step")
         balls = ipywidgets.Checkbox(True, description="balls of the sides that are not in the graph")
         board = Board(box_around(shape.points), alt=ALT)
-        super().__init__(board, {"graph": graph, "step": step, "balls": balls}, LOOK_FOR)
+        super().__init__(board, {"step": step, "graph": graph, "balls": balls}, LOOK_FOR)
 
     @property
     def stages(self) -> list[Stage]:
@@ -100,6 +105,26 @@ class Refinement(Explorer):
             "missing_per_step": [len(stage.missing) for stage in stages],
         }
         self.say(refinement_text(stages, step, self.controls["graph"].value), numbers)
+
+    def given(self) -> dict[str, object]:
+        """All rounds for both graphs, as they are drawn."""
+        return {"alt": ALT, "rounds": {to: self._rounds(to) for to in ("gabriel", "delaunay")}}
+
+    def _rounds(self, to: str) -> dict[str, list]:
+        stages = self._stages(to)
+        return {
+            "points": stages[-1].points.tolist(),  # every round adds some at the end
+            "stages": [
+                {
+                    "samples": len(stage.points),
+                    "facets": stage.facets.tolist(),
+                    "missing": stage.missing.tolist(),
+                    "intruders": diametral_balls(stage)[2].tolist(),
+                    "text": refinement_text(stages, step, to),
+                }
+                for step, stage in enumerate(stages)
+            ],
+        }
 
     def _draw_stage(self, stage: Stage, before: Stage) -> None:
         draw, points, first, old = self.board.draw, stage.points, self.stages[0], len(before.points)

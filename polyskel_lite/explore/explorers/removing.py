@@ -24,12 +24,23 @@ ALT = (
     "triangles left, with the vertex and the edges that go with the marked triangle in blue."
 )
 
-#: What removing a triangle does, by the number of its sides that it shares with the shape that is left.
-_KINDS = {
-    0: "the last triangle of a part",
-    1: "a hat triangle",
-    2: "a triangle in a strip",
-    3: "a triangle at a junction",
+#: What is said of a removal; a page without a kernel says the same. Kinds by the number of shared sides.
+WORDS = {
+    "gone": "{step} of {all} triangles are gone.",
+    "no_hat": "No hat is left: what remains cannot go without a change of topology.",
+    "not_there": "Triangle {triangle} is not there any more; choose another one.",
+    "kind_0": "the last triangle of a part",
+    "kind_1": "a hat triangle",
+    "kind_2": "a triangle in a strip",
+    "kind_3": "a triangle at a junction",
+    "may": "Triangle {triangle} is {kind}: it shares 1 side with the others, so it may go.",
+    "must": "Triangle {triangle} is {kind}: it shares {shared} sides with the others, so it must stay.",
+    "value": "p/r = {length} / {radius} = {value} π",
+    "goes": "{value}: it goes at a threshold above that.",
+    "waited": "{value}; it waited for others, and goes at a threshold above {level} π.",
+    "betti": "Betti numbers {before} with it, {after} without it: the topology {verdict}.",
+    "stays": "stays",
+    "changes": "changes",
 }
 
 
@@ -45,27 +56,21 @@ def removal_text(h: Hierarchy, step: int, triangle: int | None, removal: Removal
     go. p/r = ... = 0.79 π: it goes at a threshold above that. Betti numbers (1, 1) with it, (1, 1) without
     it: the topology stays.
     """
-    gone = f"{step} of {len(h.order)} triangles are gone."
-    if removal is None and triangle is None:
-        return f"{gone} No hat is left: what remains cannot go without a change of topology."
+    said = [WORDS["gone"].format(step=step, all=len(h.order))]
     if removal is None:
-        return f"{gone} Triangle {triangle} is not there any more; choose another one."
+        return " ".join([*said, WORDS["no_hat" if triangle is None else "not_there"].format(triangle=triangle)])
+    facts = removal._asdict() | {"kind": WORDS[f"kind_{removal.shared}"]}
     hat = removal.shared == 1
-    value = f"p/r = {removal.length:.3g} / {removal.radius:.3g} = {removal.value / np.pi:.2f} π"
-    level = float(h.level[np.searchsorted(h.simplices, removal.triangle)])
-    if not hat:
-        words = ""
-    elif level > removal.value * (1 + 1e-9):
-        # The hats before it had larger values; it waits for them, and goes with the largest.
-        words = f"{value}; it waited for others, and goes at a threshold above {level / np.pi:.2f} π. "
-    else:
-        words = f"{value}: it goes at a threshold above that. "
-    sides, verb = ("1 side", "may go") if hat else (f"{removal.shared} sides", "must stay")
-    return (
-        f"{gone} Triangle {removal.triangle} is {_KINDS[removal.shared]}: it shares {sides} with the others, "
-        f"so it {verb}. {words}Betti numbers {removal.before} with it, {removal.after} without it: "
-        f"the topology {'stays' if removal.before == removal.after else 'changes'}."
-    )
+    said.append(WORDS["may" if hat else "must"].format(**facts))
+    if hat:
+        length, radius = f"{removal.length:.3g}", f"{removal.radius:.3g}"
+        value = WORDS["value"].format(length=length, radius=radius, value=f"{removal.value / np.pi:.2f}")
+        level = float(h.level[np.searchsorted(h.simplices, removal.triangle)])
+        # Where the hats before it had larger values it waits for them, and goes with the largest.
+        way = "waited" if level > removal.value * (1 + 1e-9) else "goes"
+        said.append(WORDS[way].format(value=value, level=f"{level / np.pi:.2f}"))
+    verdict = WORDS["stays" if removal.before == removal.after else "changes"]
+    return " ".join([*said, WORDS["betti"].format(**facts, verdict=verdict)])
 
 
 class Removals(Explorer):
@@ -75,6 +80,12 @@ class Removals(Explorer):
     ----------
     hierarchy : Hierarchy
     """
+
+    words = WORDS
+    live = {
+        **{"triangles": "polygons", "marked": "polygons", "ball": "circles"},
+        **{"skeleton": "lines", "goes": "lines"},
+    }
 
     def __init__(self, h: Hierarchy):
         self.hierarchy = h
@@ -98,6 +109,25 @@ class Removals(Explorer):
         if removal:
             numbers |= removal._asdict() | {"value": removal.value}
         self.say(removal_text(h, step, triangle, removal), numbers)
+
+    def given(self) -> dict[str, object]:
+        """The triangles of the shape, numbered as in ``hierarchy.level``, and the order in which they go."""
+        h, t, rows = self.hierarchy, self.hierarchy.P.tessellation, self.hierarchy.simplices
+        number = np.full(len(t.simplices) + 1, -1)
+        number[rows] = np.arange(len(rows))
+        about = {
+            "points": t.points,
+            "corners": t.simplices[rows],
+            "near": number[t.neighbors[rows]],
+            "centers": t.circumcenters[rows],
+            "radii": t.circumradii[rows],
+            "lengths": state_at(h, 0)[1],
+            "order": h.order,
+            "level": np.where(np.isfinite(h.level), h.level, -1.0),  # of those that never go, which no hat is
+            "simplices": rows,
+            "aside": self._aside,
+        }
+        return {name: value.tolist() for name, value in about.items()} | {"alt": ALT}
 
     def _draw_state(self, P: DelaunayShape, removal: Removal | None) -> None:
         """The triangles that are left with one marked, and to the right of them the skeleton."""

@@ -10,11 +10,18 @@ from ...graphs import delaunay
 from ...shapes import Shape
 from ...skeletons import sk2
 from ..drawing_board import Board, box_around
-from .explorer import Explorer, flat_shape, sample_sliders
+from .explorer import Explorer, flat_shape, rings_of, sample_sliders
 
 
 class Sampling(Explorer):
     """See `sampling`."""
+
+    words = {
+        "alt": "A shape, {n} samples, skeleton Sk2 of {pieces} pieces and {loops} loops.",
+        "alt_with_balls": "A shape, {n} samples, skeleton Sk2 of {pieces} pieces and {loops} loops, over the "
+        "union of the Delaunay balls with centres in the shape.",
+    }
+    live = {"samples": "points", "skeleton": "lines", "polyball": "circles"}
 
     def __init__(self, shape: Shape | None = None, n: int = 100, seed: int = 0):
         self.shape = flat_shape(shape, "samples")
@@ -24,7 +31,8 @@ class Sampling(Explorer):
             raise InputError(f"n is {n}; choose from {low} to {high}, the ends of the slider.")
         self._size = float(np.hypot(*np.ptp(self.shape.points, axis=0)))
         # As many as there can be samples: the noise of the first hundred does not depend on the others.
-        self._shifts = np.random.default_rng(seed).normal(size=(high, 2))
+        # Rounded, so that a page without a kernel has the very same in few characters.
+        self._shifts = np.random.default_rng(seed).normal(size=(high, 2)).round(4)
         board = Board(box_around(self.shape.points, 0.08))
         rings = [self.shape.points[ring] for ring in self.shape.rings()]
         board.draw("shape", "shape", polygons=rings, label="shape X")
@@ -56,10 +64,8 @@ class Sampling(Explorer):
         Y = skeleton.balls() if polyball and len(skeleton.vertices) else None
         board.draw("polyball", "balls", circles=(Y.centers, Y.radii) if Y else ([], []), label="Y_w")
         betti = skeleton.betti()
-        board.alt = (
-            f"A shape, {len(graph.points)} samples, skeleton Sk2 of {betti[0]} pieces and {betti[1]} loops"
-            + (", over the union of the Delaunay balls with centres in the shape." if polyball else ".")
-        )
+        alt = self.words["alt_with_balls" if polyball else "alt"]
+        board.alt = alt.format(n=len(graph.points), pieces=betti[0], loops=betti[1])
         self.tell(
             n=len(graph.points),
             covering_radius=radius,
@@ -70,6 +76,10 @@ class Sampling(Explorer):
             Betti_numbers_of_Sk2=betti,
             those_of_the_shape=self.shape.betti(),
         )
+
+    def given(self) -> dict[str, object]:
+        shape, shifts = self.shape, self._shifts
+        return rings_of(shape) | {"betti": shape.betti(), "size": self._size, "shifts": shifts.tolist()}
 
 
 def sampling(shape: Shape | None = None, n: int = 100, seed: int = 0) -> Sampling:

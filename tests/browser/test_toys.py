@@ -1,0 +1,282 @@
+"""Explorers on pages without a kernel: they say what Python says, by mouse, touch and keyboard."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import polyskel_lite as psl
+from polyskel_lite import explore
+from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
+
+from .accessibility import STRUCTURE, findings
+from .conftest import ROOT, pages
+
+LAKE = psl.datasets.load("lake")
+MAKERS = {
+    "graphs": lambda: explore.graphs(),
+    "maximal_ball": lambda: explore.maximal_ball(),
+    "sampling": lambda: explore.sampling(n=50),
+    "sampling-lake": lambda: explore.sampling(LAKE, n=60),
+    "four_methods": lambda: explore.four_methods(),
+    "four_methods-lake": lambda: explore.four_methods(LAKE, n=120, start=0.3),
+    "balls": lambda: explore.balls(),
+    "refinement": lambda: explore.refinement(),
+    "removals": lambda: explore.removals(),
+}
+# What a page shows of an explorer, once a control or a handle was moved.
+SHOWN = """({ values = {}, handle = -1, place }) => {
+    const { toy } = document.querySelector(".psl-toy");
+    if (handle >= 0) toy.model.data.handles = toy.handles.map((old, k) => (k === handle ? place : old));
+    toy.set(values);
+    const [text, alt, legend] = ["text", "alt", "_legend"].map((name) => toy.model.get(name));
+    const layers = toy.model.get("_layers").filter((name) => toy.model.get(`_svg_${name}`));
+    return { text, alt, legend, layers };
+}"""
+
+
+@pytest.fixture(scope="module")
+def folder(browser, tmp_path_factory) -> Path:
+    """A page of each explorer."""
+    folder = tmp_path_factory.mktemp("toys")
+    style = "".join(sheet.read_text("utf-8") for sheet in (BOARD.with_name("board.css"), TOYS / "toys.css"))
+    for name, make in MAKERS.items():
+        explorer = make()
+        page = (
+            f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f"<style>{style}</style></head><body><main><h1>{name}</h1>{explorer.stand_in()}</main>"
+            f'<script type="module">{page_module([type(explorer).__name__])}</script></body></html>'
+        )
+        (folder / f"{name}.html").write_text(page, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def opened(visit, folder):
+    """opened(name, **context): the page of an explorer, ready."""
+
+    def open_page(name: str, **context):
+        found = visit(folder.as_uri(), f"{name}.html", **context)
+        found.page.locator(".psl-toy[data-ready]").wait_for()
+        return found
+
+    return open_page
+
+
+def shown(explorer) -> dict[str, object]:
+    """The same of an explorer in Python."""
+    board = explorer.board
+    layers = [name for name in board.get_state(["_layers"])["_layers"] if board.picture(name)]
+    return {"text": board.text, "alt": board.alt, "legend": board.legend, "layers": layers}
+
+
+def some_values(explorer, rng) -> dict[str, object]:
+    """Other places for some of the controls, as a reader could choose them."""
+    values = {}
+    for name, control in explorer.controls.items():
+        if not hasattr(control, "value") or rng.random() < 0.4:
+            continue
+        if hasattr(control, "options"):
+            pairs = [o if isinstance(o, tuple) else (o, o) for o in control.options]
+            values[name] = pairs[rng.integers(len(pairs))][1]
+        elif isinstance(control.value, bool):
+            values[name] = bool(rng.random() < 0.5)
+        else:
+            steps = int(rng.integers(round((control.max - control.min) / control.step) + 1))
+            values[name] = type(control.value)(round(control.min + steps * control.step, 6))
+    return values
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_page_and_python_say_the_same(opened, name):
+    found, explorer, rng = opened(name), MAKERS[name](), np.random.default_rng(11)
+    assert found.page.evaluate(SHOWN, {}) == shown(explorer)
+    low, high = np.reshape(explorer.board.box, (2, 2))
+    for turn in range(40):
+        places = np.array(explorer.board.handles)
+        if len(places) and turn % 2:  # one handle, anywhere
+            handle, place = int(rng.integers(len(places))), (low + rng.random(2) * (high - low)).round(6)
+            places[handle] = place
+            values, told = {}, {"handle": handle, "place": place.tolist()}
+        else:
+            values = some_values(explorer, rng)
+            told = {"values": values}
+        with explorer.together():
+            for control, value in values.items():
+                explorer.controls[control].value = value
+            if len(places):
+                explorer.board.handles = places
+        assert found.page.evaluate(SHOWN, told) == shown(explorer), (turn, told, places.tolist())
+    found.assert_quiet()
+
+
+def line(page) -> str:
+    return page.locator(".psl-text").inner_text()
+
+
+def test_handles_follow_keys_mouse_and_touch(opened):
+    found, explorer = opened("graphs"), MAKERS["graphs"]()
+    page, step = found.page, explorer.board.step
+    handle = page.locator(".psl-handle").nth(3)
+    x, y = explorer.board.handles[3]
+
+    def python_says(x, y):
+        explorer.board.handles = [*explorer.board.handles[:3], (x, y), *explorer.board.handles[4:]]
+        return explorer.board.text
+
+    handle.focus()
+    page.keyboard.press("Shift+ArrowLeft")
+    page.keyboard.press("ArrowUp")
+    assert line(page) == python_says(x - 10 * step, y + step)
+    box = handle.bounding_box()
+    page.mouse.move(box["x"] + 16, box["y"] + 16)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 76, box["y"] - 34, steps=5)
+    page.mouse.up()
+    x, y = (float(handle.get_attribute(f"data-{k}")) for k in "xy")
+    assert line(page) == python_says(x, y)
+    found.assert_quiet()
+
+
+def test_a_finger_moves_a_handle_and_scrolls_beside_it(opened):
+    found = opened("maximal_ball", viewport={"width": 390, "height": 600}, has_touch=True, is_mobile=True)
+    page = found.page
+    page.evaluate("document.body.style.paddingBottom = '1200px'")
+    touch = page.context.new_cdp_session(page)
+
+    def swipe(x, y, way):
+        points = [[{"x": x + way[0] * k / 8, "y": y + way[1] * k / 8}] for k in range(9)]
+        kinds = ["touchStart", *["touchMove"] * 8, "touchEnd"]
+        for kind, place in zip(kinds, [*points, []], strict=True):
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": place})
+            page.wait_for_timeout(16)
+        page.wait_for_timeout(300)
+
+    before, box = line(page), page.locator(".psl-handle").bounding_box()
+    swipe(box["x"] + 16, box["y"] + 16, (-60, 10))
+    assert line(page) != before
+    assert page.evaluate("scrollY") == 0
+    stage = page.locator(".psl-stage").bounding_box()
+    swipe(stage["x"] + 20, stage["y"] + stage["height"] - 20, (0, -150))
+    assert page.evaluate("scrollY") > 50
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_every_control_works_by_keyboard(opened, name):
+    found, explorer = opened(name), MAKERS[name]()
+    page = found.page
+    page.locator("summary").press("Enter")
+    keys = {"range": ["Home", "PageUp"], "checkbox": ["Space"], "button": ["Enter"]}
+    for control, widget in explorer.controls.items():
+        part = page.locator(f"[data-control={control}]")
+        label = part.evaluate("node => node.labels?.[0]?.textContent || node.textContent")
+        assert label == widget.description
+        for key in keys.get(part.get_attribute("type"), ["ArrowDown"]):
+            part.press(key)
+        if hasattr(widget, "value"):
+            value = page.evaluate("name => document.querySelector('.psl-toy').toy.value(name)", control)
+            assert value != widget.value
+            widget.value = value
+        else:
+            widget.click()
+        assert line(page) == explorer.board.text, control
+    found.assert_quiet()
+
+
+def test_a_number_can_be_typed(opened):
+    found, explorer = opened("sampling"), MAKERS["sampling"]()
+    number = found.page.locator("input[type=number]").first
+    number.fill("111")
+    number.press("Enter")
+    explorer.controls["n"].value = 111
+    assert line(found.page) == explorer.board.text
+    number.fill("100000")
+    number.press("Enter")
+    explorer.controls["n"].value = explorer.controls["n"].max
+    assert line(found.page) == explorer.board.text
+    assert number.input_value() == str(explorer.controls["n"].max)
+
+
+def test_balls_are_added_and_removed(opened):
+    found, explorer = opened("balls"), MAKERS["balls"]()
+    page = found.page
+    page.locator("summary").click()
+    for _ in range(10):
+        page.get_by_role("button", name="add a ball").click()
+        explorer.add()
+        assert line(page) == explorer.board.text
+    assert line(page).startswith("16 balls are as many")
+    for _ in range(16):
+        page.get_by_role("button", name="remove this ball").click()
+        explorer.remove(explorer.controls["ball"].value)
+        assert line(page) == explorer.board.text
+    assert line(page) == "One ball has to stay."
+    assert page.locator(".psl-handle").count() == 2
+    found.assert_quiet()
+
+
+@pytest.mark.parametrize("name", MAKERS)
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
+def test_a_page_is_accessible(opened, name, width, scheme):
+    found = opened(name, viewport={"width": width, "height": 844}, color_scheme=scheme)
+    assert findings(found.page, STRUCTURE) == []
+    small = found.page.evaluate(
+        """() => [...document.querySelectorAll(".psl-knobs :is(button, select, input), .psl-handle")]
+            .filter((node) => node.getBoundingClientRect().height < 24 && !node.closest("label"))
+            .map((node) => node.outerHTML)"""
+    )
+    assert [node for node in small if "checkbox" not in node] == []
+
+
+def test_without_javascript_the_picture_and_its_words_are_there(visit, folder):
+    found = visit(folder.as_uri(), "balls.html", java_script_enabled=False)
+    explorer = MAKERS["balls"]()
+    text = found.page.locator("figure").inner_text()
+    assert explorer.look_for in text
+    assert explorer.board.text in text
+    assert "moves on a page with JavaScript" in text
+    assert found.page.locator("figure svg[role=img]").get_attribute("aria-label") == explorer.board.alt
+
+
+def test_all_explorers_on_one_page(visit, folder):
+    explorers = [make() for make in MAKERS.values()]
+    names = {type(explorer).__name__ for explorer in explorers}
+    assert all(len(page_module([name]).encode()) < 60_000 for name in names)
+    module = page_module(names)
+    # Indentation is taken off, so no text in the modules may go over several lines.
+    assert [row for row in module.splitlines() if row.count("`") % 2] == []
+    page = "".join(explorer.stand_in() for explorer in explorers)
+    page = f'<!DOCTYPE html><title>all</title>{page}<script type="module">{module}</script>'
+    (folder / "all.html").write_text(page, encoding="utf-8")
+    found = visit(folder.as_uri(), "all.html")
+    for toy in found.page.locator(".psl-toy").all():
+        toy.scroll_into_view_if_needed()
+        toy.locator("xpath=self::*[@data-ready='true']").wait_for()
+    assert found.page.locator(".psl-text").all_inner_texts() == [one.board.text for one in explorers]
+    found.assert_quiet()
+
+
+#: Chapters and the explorers that they show.
+IN_CHAPTERS = {
+    name: re.findall(r'json\">{\\"toy\\":\\"(\w+)', file.read_text("utf-8"))
+    for name in pages()
+    if (file := ROOT / f"notebooks/{name}.ipynb").exists()
+}
+
+
+def test_every_explorer_of_the_plane_is_in_a_chapter():
+    shown = {toy for toys in IN_CHAPTERS.values() for toy in toys}
+    assert shown == {type(make()).__name__ for make in MAKERS.values()}
+
+
+@pytest.mark.parametrize("name", [name for name, toys in IN_CHAPTERS.items() if toys])
+def test_explorers_of_a_chapter_move(visit, book, name):
+    found = visit(book.as_uri(), f"{name}.html")
+    for toy in found.page.locator(".psl-toy").all():
+        toy.scroll_into_view_if_needed()
+        toy.locator("xpath=self::*[@data-ready='true']").wait_for()
+        assert toy.locator(".psl-stage path").count()
+    found.assert_quiet()
