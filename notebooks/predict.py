@@ -7,13 +7,13 @@
     Each convex corner is the end of a branch. Samples on straight sides add none.
     :::
 
-Options are the lines with a box; the right one has a cross, and where none has one the question is open. What follows
-is the verdict. With ``:place: x y tolerance`` the answer is a mark in the next picture instead, at most so far from
-the right place. ``:opens: none`` locks nothing; ``next`` locks the next picture that moves, even past another
-question. Without either it locks the next one in its section, up to the next question.
+Options are the lines with a box; the right one has a cross, and where none has one the question is open. What
+follows is the verdict. With ``:place: x y tolerance`` the answer is a mark in the next picture instead, at most
+so far from the right place. ``:opens: none`` locks nothing; ``next`` locks the next picture that moves, even past
+another question. Without either it locks the next one in its section, up to the next question.
 
-The page holds question, options and folded answer as text; ``polyskel_lite/explore/toys/predict.js`` makes controls
-of them. conf.py loads this file by name: only Sphinx is needed.
+The page holds question, options and folded answer as text; ``polyskel_lite/explore/toys/predict.js`` makes
+controls of them. conf.py loads this file by name: only Sphinx is needed.
 """
 
 import math
@@ -69,7 +69,9 @@ class Predict(SphinxDirective):
         if target and options:
             raise self.error("A question for a place in the picture has no options.")
         if not target and len(options) < 2:
-            raise self.error("A question needs two options or more, lines that begin with '- [ ]' or '- [x]'.")
+            raise self.error(
+                "A question needs two options or more, lines that begin with '- [ ]' or '- [x]'."
+            )
         if right and len(right) == len(options):
             raise self.error("Every option of this question is right: then there is nothing to choose.")
         if OPTION.search(verdict):
@@ -77,7 +79,10 @@ class Predict(SphinxDirective):
         if not verdict:
             raise self.error("A question needs a verdict: why the right answer is right.")
 
-        data = {"id": f"predict-{self.env.new_serialno('predict') + 1}", "data-right": " ".join(map(str, right))}
+        data = {
+            "id": f"predict-{self.env.new_serialno('predict') + 1}",
+            "data-right": " ".join(map(str, right)),
+        }
         data["data-place"] = " ".join(f"{number:g}" for number in target or ())
         data["data-opens"] = self.options.get("opens", "")
         said = "".join(f' {name}="{value}"' for name, value in data.items() if value)
@@ -98,7 +103,7 @@ class Predict(SphinxDirective):
         """One line of Markdown as a paragraph."""
         parts, messages = self.state.inline_text(text, self.lineno)
         # Only a page folds the answer; elsewhere it has to be told from an option.
-        label = [nodes.raw("", "Answer: ", format="latex text")] if "psl-right" in classes else []
+        label = [nodes.raw("Answer: ", "Answer: ", format="latex text")] if "psl-right" in classes else []
         return nodes.paragraph(text, "", *label, *parts, *messages, classes=list(classes))
 
 

@@ -239,7 +239,9 @@ def question(title: str, body: str) -> str:
     choices, _, verdict = body.partition("\n\n") if body.startswith("- [") else ("", "", body)
     right = [f"**{one}**" for one in re.findall(r"^- \[x\] (.*(?:\n  .*)*)", choices, re.M)]
     listed = re.sub(r"^- \[[ x]\]", "-", choices, flags=re.M)
-    return "\n\n".join(filter(None, [f"**{title}**", listed, folded("Answer", "\n\n".join([*right, verdict]))]))
+    return "\n\n".join(
+        filter(None, [f"**{title}**", listed, folded("Answer", "\n\n".join([*right, verdict]))])
+    )
 
 
 def copies(doctrees: Path) -> dict[str, str]:

@@ -48,8 +48,6 @@ function unlock(picture, asked) {
   if (!questions.size) open();
 }
 
-const boxOf = (told) => (told.board ?? told)._view.box;
-
 /** A ring in the picture that stands where the reader clicked, and goes where the arrow keys say. */
 function markIn(stage, [left, bottom, right, top]) {
   const ring = make("div", { class: "psl-guess", role: "slider", tabindex: "0", "aria-label": "your mark",
@@ -112,8 +110,8 @@ function ask(asked) {
   let mark = null;
   if (picture) lock(picture, asked);
   const stop = place && withParts(picture, () => {
-    const stage = picture.querySelector(".psl-stage"), data = picture.querySelector("script[type='application/json']");
-    if (stage?.querySelector("svg") && !stage.contains(mark?.ring)) mark = markIn(stage, boxOf(JSON.parse(data.textContent)));
+    const stage = picture.querySelector(".psl-stage"), view = picture.toy?.model.get("_view");
+    if (view && stage && !stage.contains(mark?.ring)) mark = markIn(stage, view.box);
   });
 
   const done = (verdict) => {
