@@ -20,7 +20,7 @@ from playwright.sync_api import sync_playwright
 from polyskel_lite import explore
 from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
 
-FLAGS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
+FLAGS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking"]
 #: Explorer, how it comes, and what is moved: a slider by its keys, or the handle of this number.
 CASES = (
     ("maximal_ball", "live", 0),

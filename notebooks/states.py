@@ -1,7 +1,9 @@
-"""The role ``state``: words in the text that bring the explorer above them to a state.
+"""Roles that tie words of the text to the explorer above them, or to the first one of the page.
 
-In a chapter ``{state}`n = 100 <n=100, noise=0.2>` `` is the words n = 100; on a page with JavaScript they are a
-button that sets these controls. The book is built by Sphinx alone: nothing of the library is used here.
+``{state}`n = 100 <n=100, noise=0.2>` `` sets these controls: a button. ``{knob}`50 <n>` `` is the control itself, a
+number to type or to step. ``{reading}`0.0445 <covering_radius>` `` is a number of the line under the picture, and
+follows it. Without JavaScript they are the words alone. The book is built by Sphinx alone: nothing of the
+library is used here.
 """
 
 import json
@@ -12,17 +14,19 @@ from docutils import nodes
 from sphinx.util.docutils import SphinxRole
 
 
-class State(SphinxRole):
-    """Words, and in angle brackets names of controls with their values in JSON."""
+class Tied(SphinxRole):
+    """Words, and in angle brackets what they are tied to."""
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
-        words, values = re.fullmatch(r"(.*?)\s*<([^>]*)>", self.text, re.S).groups()
-        pairs = [pair.split("=") for pair in values.split(",")]
-        state = json.dumps({name.strip(): json.loads(value) for name, value in pairs})
-        html = f'<span class="psl-set" data-set="{escape(state)}">{escape(words)}</span>'
+        words, tied = re.fullmatch(r"(.*?)\s*<([^>]*)>", self.text, re.S).groups()
+        if self.name == "state":
+            pairs = [pair.split("=") for pair in tied.split(",")]
+            tied = json.dumps({name.strip(): json.loads(value) for name, value in pairs})
+        html = f'<span class="psl-{self.name}" data-to="{escape(tied)}">{escape(words)}</span>'
         return [nodes.raw("", html, format="html")], []
 
 
 def setup(app) -> dict[str, bool]:
-    app.add_role("state", State())
+    for name in ("state", "knob", "reading"):
+        app.add_role(name, Tied())
     return {"parallel_read_safe": True}

@@ -108,7 +108,7 @@ class Chapter:
         words, label = (titled[1], titled[2]) if titled else ("", text.strip())
         if kind.startswith("cite"):
             return self.citation(kind, label.split(","))
-        if kind == "state":
+        if kind in ("state", "knob", "reading"):
             return words
         if kind == "doc":
             return self.link(label.lstrip("/"), words or self.book.titles[label.lstrip("/")])

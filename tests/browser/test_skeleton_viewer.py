@@ -2,6 +2,7 @@
 
 import io
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib.image
@@ -62,17 +63,29 @@ def folder(browser, hierarchies, tmp_path_factory) -> Path:
     """A folder with a page of each."""
     folder = tmp_path_factory.mktemp("viewers")
     for name, own in hierarchies.items():
-        page = folder / f"{name}.html"
-        explore.viewer(own, alt=f"A {name} shape and its skeleton.", look="Short branches go first.").save(
-            page
-        )
+        about = {"alt": f"A {name} shape and its skeleton.", "look": "Short branches go first."}
+        explore.viewer(own, threshold=0, **about).save(folder / f"{name}.html")
     return folder
+
+
+def unfolded(page):
+    """The viewer with all its controls open."""
+    root = page.locator(".psl-viewer")
+    root.locator("summary").click()
+    root.locator("[data-control=color]").wait_for()
+    return root
 
 
 def pixels(page) -> np.ndarray:
     """The picture as the reader sees it, once it is at rest."""
     page.evaluate(AT_REST)
     return matplotlib.image.imread(io.BytesIO(page.locator(".psl-viewer canvas").screenshot()))
+
+
+def drawn(page) -> str:
+    """The picture at rest without what is around it."""
+    page.evaluate(AT_REST)
+    return page.locator(".psl-viewer canvas").evaluate("canvas => canvas.toDataURL()")
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:
@@ -85,7 +98,7 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 )
 def test_the_slider_follows_the_hierarchy(visit, folder, hierarchies, name, strategy):
     opened = visit(folder.as_uri(), f"{name}.html", before=SPY)
-    root = opened.page.locator(".psl-viewer")
+    root = unfolded(opened.page)
     if name == "solid":
         root.locator(f"[data-control=strategy][value={strategy}]").check()
     root.locator("[data-control=vertices]").check()
@@ -132,7 +145,7 @@ def test_a_typed_threshold_is_exact(visit, folder, hierarchies):
 @pytest.mark.parametrize("name", ["flat", "solid"])
 def test_the_picture_follows_the_keyboard(visit, folder, name):
     opened = visit(folder.as_uri(), f"{name}.html")
-    root = opened.page.locator(".psl-viewer")
+    root = unfolded(opened.page)
     first = last = pixels(opened.page)
     rows, columns = (slice(size // 4, 3 * size // 4) for size in first.shape[:2])
     assert len(np.unique(first[rows, columns].reshape(-1, first.shape[-1]), axis=0)) > 20
@@ -159,7 +172,7 @@ def test_the_picture_follows_the_keyboard(visit, folder, name):
 def test_a_picture_shows_nothing_of_the_one_before(visit, folder, strategy):
     small = {"width": 700, "height": 700}  # so that it is drawn at its best on slow machines too
     opened = visit(folder.as_uri(), "solid.html", viewport=small)
-    root = opened.page.locator(".psl-viewer")
+    root = unfolded(opened.page)
     root.locator(f"[data-control=strategy][value={strategy}]").check()
     root.locator("[data-control=vertices]").check()
     first = pixels(opened.page)
@@ -186,10 +199,12 @@ def test_the_wheel_keeps_the_place_under_the_pointer(visit, tmp_path, turns):
         return np.array([columns.min() + 3, rows.max() + 3])
 
     before, box = corner(), canvas.bounding_box()
-    opened.page.mouse.click(box["x"] + float(before[0]), box["y"] + float(before[1]))
-    shown = pixels(opened.page)  # after the click: until then the wheel is that of the page
+    opened.page.mouse.move(box["x"] + float(before[0]), box["y"] + float(before[1]))
+    shown = pixels(opened.page)
+    opened.page.keyboard.down("Control")  # without it the wheel is that of the page
     for turn in turns:
         opened.page.mouse.wheel(0, turn)
+    opened.page.keyboard.up("Control")
     assert changed(shown, pixels(opened.page)) > 1e-3
     assert np.abs(corner() - before).max() <= 2
     opened.assert_quiet()
@@ -197,30 +212,259 @@ def test_the_wheel_keeps_the_place_under_the_pointer(visit, tmp_path, turns):
 
 def test_the_picture_is_saved(visit, folder):
     opened = visit(folder.as_uri(), "flat.html")
+    unfolded(opened.page)
     with opened.page.expect_download() as waiting:
         opened.page.locator("[data-control=save]").click()
     saved = matplotlib.image.imread(waiting.value.path(), format="png")
     assert saved.std() > 0.05
 
 
-def test_two_fingers_zoom_the_picture_and_not_the_page(visit, folder):
-    phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
-    opened = visit(folder.as_uri(), "solid.html", **phone)
-    canvas = opened.page.locator(".psl-viewer canvas")
-    canvas.tap()
-    before, box = pixels(opened.page), canvas.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    fingers = opened.page.context.new_cdp_session(opened.page)
-    for kind, gap in [
-        ("touchStart", 20),
-        *(("touchMove", 20 + 10 * k) for k in range(1, 9)),
-        ("touchEnd", None),
-    ]:
-        points = [] if gap is None else [{"x": x - gap, "y": y, "id": 0}, {"x": x + gap, "y": y, "id": 1}]
-        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
-    assert changed(before, pixels(opened.page)) > 0.02
-    assert opened.page.evaluate("visualViewport.scale") == 1
-    assert opened.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+@pytest.mark.parametrize("name", ["flat", "solid"])
+def test_the_wheel_scrolls_the_page_and_with_a_key_zooms(visit, folder, name):
+    opened = visit(folder.as_uri(), f"{name}.html", viewport={"width": 900, "height": 500})
+    page, canvas = opened.page, opened.page.locator(".psl-viewer canvas")
+    canvas.click()  # once this caught the wheel
+    assert canvas.evaluate("canvas => canvas === document.activeElement")
+    page.evaluate("scrollTo(0, 0)")
+    first, box = drawn(page), canvas.bounding_box()
+    page.mouse.move(box["x"] + 200, box["y"] + 200)
+    page.mouse.wheel(0, 120)
+    page.wait_for_function("scrollY > 50")
+    assert drawn(page) == first
+    page.evaluate("scrollTo(0, 0)")
+    for key in ("Control", "Meta"):
+        last = pixels(page)
+        page.keyboard.down(key)
+        page.mouse.wheel(0, -240)
+        page.keyboard.up(key)
+        assert changed(last, pixels(page)) > 0.005, key
+        assert page.evaluate("[scrollY, visualViewport.scale]") == [0, 1]
+    assert "Ctrl (Cmd) and the wheel" in page.locator(".psl-hint").inner_text()
+    opened.assert_quiet()
+
+
+class Fingers:
+    """Touches on a phone, through the protocol of the browser's developer tools."""
+
+    def __init__(self, visit, folder, name):
+        phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+        self.opened = visit(folder.as_uri(), f"{name}.html", **phone)
+        self.page = self.opened.page
+        # Room to scroll to, as there is in a book.
+        self.page.evaluate("document.body.style.paddingBottom = '900px'")
+        self.canvas = self.page.locator(".psl-viewer canvas")
+        self.send = self.page.context.new_cdp_session(self.page).send
+
+    def middle(self) -> np.ndarray:
+        box = self.canvas.bounding_box()
+        return np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+
+    def move(self, *ways) -> float:
+        """Move fingers at once, each from its place by as much; how far the page was scrolled."""
+        top = self.page.evaluate("scrollY")
+        for k in range(13):
+            points = [
+                dict(zip("xy", np.add(a, np.multiply(by, k / 12)).tolist(), strict=True)) for a, by in ways
+            ]
+            points = [point | {"id": i} for i, point in enumerate(points)]
+            self.send(
+                "Input.dispatchTouchEvent",
+                {"type": "touchMove" if k else "touchStart", "touchPoints": points},
+            )
+            self.page.wait_for_timeout(16)
+        self.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        self.page.wait_for_timeout(400)
+        return self.page.evaluate("scrollY") - top
+
+
+@pytest.mark.parametrize("name", ["flat", "solid"])
+def test_a_finger_scrolls_the_page_or_turns_the_picture(visit, folder, name):
+    fingers = Fingers(visit, folder, name)
+    first = drawn(fingers.page)
+    assert fingers.move((fingers.middle(), (0, -200))) > 100
+    assert drawn(fingers.page) == first
+    fingers.canvas.tap()  # once this took the swipes from the page
+    assert fingers.canvas.evaluate("canvas => canvas === document.activeElement")
+    assert fingers.move((fingers.middle(), (3, -150))) > 100
+    assert drawn(fingers.page) == first
+    before = pixels(fingers.page)
+    assert fingers.move((fingers.middle(), (90, 4))) == 0
+    assert changed(before, pixels(fingers.page)) > 0.01
+    fingers.opened.assert_quiet()
+
+
+@pytest.mark.parametrize("way", [(60, 0), (0, 60)])
+@pytest.mark.parametrize("tapped", [False, True])
+def test_two_fingers_zoom_the_picture_and_not_the_page(visit, folder, way, tapped):
+    fingers = Fingers(visit, folder, "solid")
+    if tapped:
+        fingers.canvas.tap()
+    before, way = pixels(fingers.page), np.array(way)
+    apart = way / 3
+    moves = (fingers.middle() - apart, -way), (fingers.middle() + apart, way)
+    assert fingers.move(*moves) == 0
+    assert changed(before, pixels(fingers.page)) > 0.02
+    assert fingers.page.evaluate("visualViewport.scale") == 1
+    assert fingers.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    fingers.opened.assert_quiet()
+
+
+def test_one_control_is_open_and_the_others_are_folded(visit, folder):
+    opened = visit(folder.as_uri(), "flat.html")
+    controls = opened.page.locator(".psl-viewer [data-control]").all()
+    seen = [control.get_attribute("data-control") for control in controls if control.is_visible()]
+    assert seen == ["threshold", "threshold-number"]
+    assert len(controls) > 8
+    places = ["canvas", ".psl-look", ".psl-status", ".psl-controls"]
+    tops = [opened.page.locator(f".psl-viewer {place}").bounding_box()["y"] for place in places]
+    assert tops == sorted(tops)  # what to look for stands under the picture
+    unfolded(opened.page)
+    assert all(control.is_visible() for control in controls)
+
+
+def test_a_variant_has_its_slider_open(visit, tmp_path):
+    shapes = {n: psl.datasets.load("lake", n=n) for n in (100, 200)}
+    skeletons = {n: psl.sk0(psl.conform(shape)) for n, shape in shapes.items()}
+    explore.viewer(skeletons, alt="A lake.").save(tmp_path / "lake.html")
+    opened = visit(tmp_path.as_uri(), "lake.html")
+    controls = opened.page.locator(".psl-viewer [data-control]").all()
+    assert [c.get_attribute("data-control") for c in controls if c.is_visible()] == ["variant"]
+    before = opened.page.locator(".psl-viewer").get_attribute("data-vertices")
+    opened.page.locator("[data-control=variant]").press("End")
+    assert opened.page.locator(".psl-viewer").get_attribute("data-vertices") != before
+
+
+def test_each_strategy_has_its_threshold(visit, folder):
+    opened = visit(folder.as_uri(), "solid.html")
+    root = opened.page.locator(".psl-viewer")
+
+    def choose(strategy: str) -> float:
+        root.locator(f"[data-control=strategy][value={strategy}]").check()
+        return float(root.get_attribute("data-threshold"))
+
+    assert choose("surface") == 0
+    assert choose("wireframe") == 2 * math.pi  # the paper's
+    root.locator("[data-control=threshold]").press("ArrowLeft")
+    moved = float(root.get_attribute("data-threshold"))
+    assert 1.9 * math.pi < moved < 2 * math.pi
+    assert choose("surface") == 0
+    assert choose("wireframe") == moved
+
+
+def test_ticks_set_round_thresholds(visit, folder, hierarchies):
+    opened = visit(folder.as_uri(), "solid.html")
+    root = opened.page.locator(".psl-viewer")
+    angles = {"π/3": math.pi / 3, "2π/3": 2 * math.pi / 3, "π": math.pi, "2π": 2 * math.pi}
+    for h in hierarchies["solid"]:
+        root.locator(f"[data-control=strategy][value={h.strategy}]").check()
+        top = h.level[np.isfinite(h.level)].max()
+        names = [button.inner_text() for button in root.locator(".psl-ticks button").all()]
+        assert names == [name for name, angle in angles.items() if angle < top]
+        slider = root.locator("[data-control=threshold]").bounding_box()
+        for name in names:
+            button = root.get_by_role("button", name=f"Threshold {name}", exact=True)
+            button.press("Enter")
+            assert float(root.get_attribute("data-threshold")) == angles[name]
+            pressed = root.locator(".psl-ticks [aria-pressed=true]").all()
+            assert [other.inner_text() for other in pressed] == [name]
+            # It stands where the slider's thumb is.
+            share = float(root.locator("[data-control=threshold]").input_value()) / 400
+            box = button.bounding_box()
+            assert box["x"] + box["width"] / 2 == pytest.approx(
+                slider["x"] + 8 + share * (slider["width"] - 16), abs=2
+            )
+    assert "2π" in names
+    root.locator("[data-control=threshold]").press("ArrowRight")
+    assert root.locator(".psl-ticks [aria-pressed=true]").count() == 0
+    opened.assert_quiet()
+
+
+def test_ticks_do_not_overlap_on_a_phone(visit, folder):
+    opened = visit(folder.as_uri(), "solid.html", viewport={"width": 390, "height": 844})
+    for strategy in ("surface", "wireframe"):
+        opened.page.locator(f"[data-control=strategy][value={strategy}]").check()
+        boxes = [button.bounding_box() for button in opened.page.locator(".psl-ticks button").all()]
+        assert len(boxes) == {"surface": 1, "wireframe": 4}[strategy]
+        for left, right in pairwise(boxes):
+            assert left["x"] + left["width"] <= right["x"]
+        assert min(min(box["width"], box["height"]) for box in boxes) >= 24
+
+
+def test_a_field_that_cannot_be_read_says_what_to_type(visit, folder):
+    opened = visit(folder.as_uri(), "flat.html")
+    root = opened.page.locator(".psl-viewer")
+    field = opened.page.get_by_role("textbox", name="multiples of π")
+    says = root.locator(".psl-problem")
+
+    def enter(text: str) -> float:
+        field.fill(text)
+        field.press("Enter")
+        return float(root.get_attribute("data-threshold"))
+
+    assert enter("2pi/3") == 2 * math.pi / 3
+    assert root.locator(".psl-ticks [aria-pressed=true]").inner_text() == "2π/3"
+    for text, words in (("-1", "never negative"), ("much", "“much” cannot be read")):
+        assert enter(text) == 2 * math.pi / 3
+        assert field.get_attribute("aria-invalid") == "true"
+        assert field.input_value() == text  # to be mended
+        assert words in says.inner_text()
+        assert "pi/3" in says.inner_text()
+        assert "still 0.667 π" in says.inner_text()
+        assert says.get_attribute("role") == "status"
+        assert field.get_attribute("aria-describedby") == says.get_attribute("id")
+    assert findings(opened.page) == []
+    root.locator("[data-control=threshold]").press("ArrowRight")
+    assert field.get_attribute("aria-invalid") == "false"
+    assert says.inner_text() == ""
+    assert field.input_value() not in ("much", "0.667")
+    assert enter("π/2") == math.pi / 2
+    opened.assert_quiet()
+
+
+@pytest.mark.parametrize("name", ["flat", "solid"])
+@pytest.mark.parametrize("sign", ["data-theme=dark", "data-jp-theme-light=false"])
+def test_the_picture_follows_the_theme(visit, folder, name, sign):
+    opened = visit(folder.as_uri(), f"{name}.html")
+    key, value = sign.split("=")
+    where = "document.documentElement" if key == "data-theme" else "document.body"
+    light = pixels(opened.page)
+    opened.page.evaluate(f"{where}.setAttribute('{key}', '{value}')")
+    dark = pixels(opened.page)
+    assert light[5:15, 5:15, :3].min() == 1
+    assert dark[5:15, 5:15, :3].max() < 0.15
+    # Lines, dots and letters are brighter there than the ground, as they are darker here.
+    assert np.median(light[..., :3].max(axis=-1)) > 0.9
+    assert np.median(dark[..., :3].max(axis=-1)) < 0.25
+    assert (dark[..., :3].max(axis=-1) > 0.5).mean() > 0.002
+    opened.page.evaluate(f"{where}.removeAttribute('{key}')")
+    np.testing.assert_array_equal(pixels(opened.page), light)
+    opened.assert_quiet()
+
+
+def test_a_viewer_that_is_locked_draws_well(visit, folder):
+    """A page may hide what to look for, and keep hands off, until its reader has answered a question."""
+    lock = """() => {
+        const root = document.querySelector(".psl-viewer");
+        for (const part of root.querySelectorAll(".psl-controls, canvas")) part.inert = true;
+        root.querySelector(".psl-look").hidden = true;
+    }"""
+    opened = visit(folder.as_uri(), "flat.html")
+    root, first = opened.page.locator(".psl-viewer"), pixels(opened.page)
+    opened.page.evaluate(lock)
+    box = root.locator("canvas").bounding_box()
+    opened.page.mouse.move(box["x"] + 300, box["y"] + 200)
+    opened.page.mouse.down()
+    opened.page.mouse.move(box["x"] + 200, box["y"] + 150)
+    opened.page.mouse.up()
+    np.testing.assert_array_equal(pixels(opened.page), first)
+    assert not root.locator(".psl-look").is_visible()
+    opened.page.set_viewport_size({"width": 600, "height": 800})
+    small = pixels(opened.page)
+    assert small.shape[1] < first.shape[1]
+    assert len(np.unique(small.reshape(-1, small.shape[-1]), axis=0)) > 20
+    opened.page.evaluate("document.querySelectorAll('[inert]').forEach((part) => (part.inert = false))")
+    root.locator("[data-control=threshold]").press("End")
+    assert changed(small, pixels(opened.page)) > 1e-3
     opened.assert_quiet()
 
 

@@ -280,3 +280,32 @@ def test_explorers_of_a_chapter_move(visit, book, name):
         toy.locator("xpath=self::*[@data-ready='true']").wait_for()
         assert toy.locator(".psl-stage path").count()
     found.assert_quiet()
+
+
+TIED = """<p>With <span class="psl-knob" data-to="n">50</span> samples the covering radius is
+<span class="psl-reading" data-to="covering_radius">0.0445</span>. Try
+<span class="psl-state" data-to='{"n": 100, "noise": 0.2}'>n = 100</span>.</p>"""
+
+
+def test_words_of_the_text_follow_and_move_an_explorer(visit, folder):
+    page = (folder / "sampling.html").read_text("utf-8").replace("</main>", f"{TIED}</main>")
+    (folder / "tied.html").write_text(page, encoding="utf-8")
+    found, explorer = visit(folder.as_uri(), "tied.html"), MAKERS["sampling"]()
+    page = found.page
+    page.locator(".psl-toy[data-ready]").wait_for()
+    reading, knob = page.locator(".psl-reading"), page.locator(".psl-knob input")
+    assert reading.inner_text() == f"{explorer.numbers['covering_radius']:.4g}"
+    assert knob.get_attribute("aria-label") == "samples n"
+    knob.fill("80")
+    explorer.controls["n"].value = 80
+    assert line(page) == explorer.board.text
+    assert reading.inner_text() == f"{explorer.numbers['covering_radius']:.4g}"
+    page.get_by_role("button", name="n = 100").press("Enter")
+    with explorer.together():
+        explorer.controls["n"].value, explorer.controls["noise"].value = 100, 0.2
+    assert line(page) == explorer.board.text
+    assert knob.input_value() == "100"
+    assert findings(page, STRUCTURE) == []
+    found.assert_quiet()
+    plain = visit(folder.as_uri(), "tied.html", java_script_enabled=False)
+    assert "With 50 samples the covering radius is 0.0445" in " ".join(plain.page.inner_text("main").split())

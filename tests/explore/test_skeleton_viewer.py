@@ -120,6 +120,12 @@ def test_radii_and_places_in_the_header_are_those_of_the_skeleton(leaf):
     assert {tuple(e) for e in edges.tolist()} == {tuple(sorted(e)) for e in skeleton.edges.tolist()}
 
 
+def test_view_that_is_half_given_is_kept(solids):
+    free = explore.viewer(solids).scene["view"]
+    assert explore.viewer(solids, view={"elev": 5}).scene["view"]["elev"] == 5
+    assert explore.viewer(solids, view={"azim": 7.5}).scene["view"]["azim"] == 7.5 != free["azim"]
+
+
 def test_axis_that_points_up_is_the_third_in_the_browser(solids):
     plain = explore.viewer(solids[:1])
     turned = explore.viewer(solids[:1], view={"elev": 15, "azim": 18, "vertical_axis": "y"})
@@ -146,7 +152,7 @@ def test_page_holds_the_data_and_three_pictures_for_readers_without_scripts(leaf
     assert metadata == {}
     held = page_data(page)
     assert base64.b64decode(held["blob"]) == picture.blob
-    assert held["threshold"] == np.pi
+    assert held["thresholds"] == {"branch": np.pi}
     assert held["scene"]["look"] == "Short ones go </script> first."
     assert page.count('src="data:image/png;base64,') == page.count("<figcaption>") == 3
     for alt in re.findall(r'alt="([^"]*)"', page):
@@ -158,12 +164,89 @@ def test_page_holds_the_data_and_three_pictures_for_readers_without_scripts(leaf
 
 def test_nothing_removed_travels_as_null(solids):
     picture = explore.viewer(solids, threshold=-np.inf)
-    assert page_data(picture.to_html())["threshold"] is None
-    assert picture.get_state("threshold") == {"threshold": None}
-    picture.set_state({"threshold": 1.0})
+    thresholds = {"surface": None, "wireframe": 2 * np.pi}
+    assert page_data(picture.to_html())["thresholds"] == thresholds
+    assert picture.get_state("thresholds") == {"thresholds": thresholds}
+    picture.set_state({"thresholds": thresholds | {"surface": 1.0}})
     assert picture.threshold == 1.0
-    picture.set_state({"threshold": None})
+    picture.set_state({"thresholds": thresholds})
     assert picture.threshold == -np.inf
+
+
+def test_each_strategy_starts_where_the_paper_cuts_and_keeps_its_threshold(leaf, solids):
+    assert explore.viewer(leaf).threshold == 2 * np.pi
+    assert explore.viewer(leaf, threshold=0).threshold == 0
+    picture = explore.viewer(solids)
+    assert picture.threshold == np.pi / 3
+    picture.threshold = 1.0
+    heard = []
+    picture.observe(lambda _: heard.append((picture.strategy, picture.threshold)), ["threshold", "strategy"])
+    picture.strategy = "wireframe"
+    assert picture.threshold == 2 * np.pi
+    assert {*heard} == {("wireframe", 2 * np.pi)}  # nobody is told of one strategy with the other's threshold
+    picture.threshold = 3.0
+    picture.strategy = "surface"
+    assert picture.threshold == 1.0
+    assert picture.thresholds == {"surface": 1.0, "wireframe": 3.0}
+    # As a browser tells it: the strategy and, in the same message or in a later one, another threshold.
+    picture.set_state({"strategy": "wireframe", "thresholds": {"surface": 1.0, "wireframe": None}})
+    assert picture.threshold == -np.inf
+    picture.set_state({"strategy": "surface"})
+    assert picture.threshold == 1.0
+    assert picture.counts() == expected(solids[0], 1.0)
+
+
+def test_threshold_that_is_given_is_that_of_the_strategy_shown_first(solids):
+    picture = explore.viewer(solids, threshold=0.5, strategy="wireframe")
+    assert picture.thresholds == {"surface": np.pi / 3, "wireframe": 0.5}
+    assert picture.threshold == 0.5
+    with pytest.raises(psl.InputError, match="threshold is inf"):
+        picture.thresholds = {"surface": np.inf}
+    with pytest.raises(psl.InputError, match="unknown strategy 'wire'"):
+        picture.thresholds = {"wire": 1.0}
+    assert picture.thresholds == {"surface": np.pi / 3, "wireframe": 0.5}
+
+
+def test_slider_has_its_knee_where_its_levels_have(solids):
+    header = explore.viewer(solids).scene["variants"][0]["hierarchies"]
+    assert [about["knee"] / np.pi for about in header] == [1, 2.5]
+    assert header[0]["largest"] <= 1.01 * np.pi < 2.5 * np.pi < header[1]["largest"]
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        psl.Polyball([(0, 0), (1, 0), (5, 0)], [1, 0.8, 0.5]),
+        psl.Polyball([(0, 0, 0), (1, 0, 0), (2, 0.3, 0), (1, 1, 0.2)], [1, 0.8, 0.7, 0.9]),
+        psl.voronoi(np.random.default_rng(1).random((20, 2))),
+        psl.voronoi(np.random.default_rng(1).random((20, 3))),
+        psl.sk2(psl.datasets.load("leaf").resample(70, 0.5)),
+        psl.sk3(psl.conform(psl.datasets.load("gear"))),
+    ],
+    ids=lambda source: f"{type(source).__name__}{source.dimension}",
+)
+def test_branches_are_those_of_the_branch_graph_also_without_thresholds(source):
+    skeleton = source.skeleton() if isinstance(source, psl.Polyball) else source
+    graph = psl.branch_graph(skeleton)
+    assert explore.viewer(source).counts()["branches"] == graph.graph["branches"]
+
+
+def test_no_arm_hides_another_at_first():
+    h = psl.hierarchy(psl.datasets.load("fourbranch"), "wireframe")
+    nodes = [node for _, node in h.branches(2 * np.pi).nodes(data=True)]
+    ends = np.array([node["pos"] for node in nodes if node["kind"] == "end"])
+    view = explore.viewer(h).scene["view"]
+    a, e = np.radians([view["azim"], view["elev"]])
+    right = -np.sin(a), np.cos(a), 0
+    up = -np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e)
+    tips = ends - h.P.tessellation.points.mean(axis=0)
+    x, y = (tips @ np.transpose([right, up])).T
+    assert len(tips) == 4
+    turns = np.sort(np.degrees(np.arctan2(y, x)))
+    assert np.diff([*turns, turns[0] + 360]).min() > 50  # around the middle
+    reach = np.linalg.norm(tips, axis=1)
+    assert (np.hypot(x, y) > 0.5 * reach).all()  # none points at the reader
+    assert explore.viewer(h).scene["view"] == view
 
 
 def test_dict_of_variants_shares_one_scale():

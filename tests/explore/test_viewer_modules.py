@@ -320,3 +320,121 @@ def test_light_comes_over_the_left_shoulder_of_the_reader(answer):
     assert np.linalg.norm(found["toLight"]) == pytest.approx(1)
     assert min(toward, left, up) > 0.3
     assert found["clamped"] == [0, 0.5, 1]
+
+
+SURFACE = {"largest": 1.01 * np.pi, "knee": np.pi, "systematic": True}
+LENGTHS = {"largest": 40 * np.pi, "knee": 2.5 * np.pi, "systematic": False}
+
+
+@pytest.mark.parametrize("header", [SURFACE, LENGTHS, LENGTHS | {"largest": 2.7 * np.pi}])
+def test_slider_is_even_up_to_its_knee(answer, header):
+    code = """
+    import { STEPS, TICKS, Track } from "./threshold.js";
+    function answer({ header }) {
+      const track = new Track(header), steps = Array.from({ length: STEPS + 1 }, (_, k) => k);
+      const at = steps.map((k) => track.at(k)).map((t) => (t === -Infinity ? null : t));
+      const back = steps.map((k) => track.step(track.at(k)));
+      const ticks = TICKS.map(([, t]) => [t, track.at(track.step(t))]);
+      const ends = [track.step(-Infinity), track.step(1e9)];
+      return { at, back, ticks, ends, share: [track.share(header.knee), track.share(header.largest)] };
+    }"""
+    found = answer(code, header=header)
+    assert (found["at"][0] is None) == header["systematic"]
+    at = np.array(found["at"][header["systematic"] :])
+    assert (np.diff(at) >= 0).all()
+    assert at[0] == 0
+    assert at[-1] == pytest.approx(header["largest"], abs=1e-3 * np.pi)
+    bent = header["largest"] == 40 * np.pi
+    assert found["share"] == pytest.approx([0.8 if bent else min(header["knee"] / header["largest"], 1), 1])
+    even = at[at <= (header["knee"] if bent else header["largest"])]
+    # A round angle or a multiple of π / 1000 is less than one step from an even place.
+    assert np.abs(even - np.linspace(0, even[-1], len(even))).max() < np.diff(even).mean()
+    if bent:
+        assert len(even) == 321
+        beyond = np.diff(np.log(at[at > header["knee"]]))
+        np.testing.assert_allclose(beyond, beyond.mean(), rtol=0.1)
+    for tick, reached in found["ticks"]:
+        assert reached == tick or tick > header["largest"]  # a round angle is reached exactly
+    assert found["ends"] == [0, 400]
+    assert np.abs(np.array(found["back"]) - np.arange(401)).max() <= 1
+
+
+TYPED = {
+    "pi/3": np.pi / 3,
+    "2pi/3": 2 * np.pi / 3,
+    " 2 π / 3 ": 2 * np.pi / 3,
+    "π/2": np.pi / 2,
+    "PI": np.pi,
+    "1.5": 1.5 * np.pi,
+    ".5": 0.5 * np.pi,
+    "2*pi": 2 * np.pi,
+    "1/3": np.pi / 3,
+    "0": 0.0,
+    "-0": 0.0,
+    "": None,
+    "none": None,
+}
+
+
+def test_field_reads_numbers_and_shares_of_pi(answer):
+    code = """
+    import { typed } from "./threshold.js";
+    const answer = ({ texts }) => texts.map((text) => {
+      const { threshold, problem } = typed(text);
+      return { problem, threshold: threshold === -Infinity ? null : threshold };
+    });"""
+    found = answer(code, texts=list(TYPED))
+    assert [row.get("problem") for row in found] == [None] * len(TYPED)
+    assert [row["threshold"] for row in found] == list(TYPED.values())
+    refused = [
+        "-1",
+        "−pi/3",
+        "abc",
+        "1e3",
+        "pi3",
+        "1..2",
+        "/3",
+        "pi/0",
+        "1,5",
+        "Infinity",
+        "NaN",
+        "--1",
+        "9" * 400,
+    ]
+    found = answer(code, texts=refused)
+    assert all("threshold" not in row for row in found)
+    assert all("Type " in row["problem"] and "pi/3" in row["problem"] for row in found)
+    assert ["never negative" in row["problem"] for row in found] == [True] * 2 + [False] * 11
+
+
+def luminance(color: str) -> float:
+    part = np.array([int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)])
+    return float(
+        np.where(part <= 0.04045, part / 12.92, ((part + 0.055) / 1.055) ** 2.4) @ (0.2126, 0.7152, 0.0722)
+    )
+
+
+def contrast(*colors: str) -> float:
+    low, high = sorted(map(luminance, colors))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("source", ["shape", "balls"])
+def test_lines_and_dots_stand_out_from_what_is_behind_them(answer, theme, source):
+    code = """
+    import { palette } from "./theme.js";
+    const answer = ({ dark, light, balls }) =>
+      palette({ closest: () => (dark ? {} : null) }, light, balls);"""
+    shape = psl.Polyball([(0, 0), (1, 0)], [1, 1]) if source == "balls" else psl.datasets.load("lake")
+    light = explore.viewer(shape).scene["colors"]
+    found = answer(code, dark=theme == "dark", light=light, balls=source == "balls")
+    colors = found["colors"]
+    assert colors.keys() == light.keys()
+    lines = [*found["ramp"], *(colors[name] for name in ("shape", "samples", "skeleton", "vertices"))]
+    for ground in (found["ground"], colors["fill"]):
+        assert min(contrast(line, ground) for line in lines) >= 3
+    assert contrast(found["ink"], found["ground"]) > 7
+    # The scale of colours can be read in grey: it never gets darker again.
+    assert (np.diff([luminance(color) for color in found["ramp"]]) > 0).all()
+    assert (luminance(found["ground"]) < 0.1) == (theme == "dark")

@@ -25,6 +25,10 @@ export class Camera {
 
   reset() { this.azimuth = this.view.azim; this.elevation = this.view.elev; this.zoom = 1; this.x = 0; this.y = 0; }
 
+  place() { const { azimuth, elevation, zoom, x, y } = this; return { azimuth, elevation, zoom, x, y }; }
+
+  stand(place) { Object.assign(this, place); }
+
   turn(dx, dy) { this.azimuth -= dx; this.elevation = clamp(this.elevation + dy, -89.9, 89.9); }
 
   /** Zoom so that the place (px, py), from -1 to 1, stays under the pointer; without one, the middle of the free part. */

@@ -227,20 +227,33 @@ def pack_hierarchy(packer: Packer, h: Hierarchy) -> dict[str, Any]:
     return {"rank": packer.add(np.minimum(h.rank, len(h.order))), "level": packer.add(h.level[h.order])}
 
 
-def scale(levels: np.ndarray) -> dict[str, Any]:
-    """How the threshold slider runs: its end, and a power that puts the median level in its middle.
+def scale(levels: np.ndarray, angles: bool = False) -> dict[str, Any]:
+    """How the threshold slider runs, and the colours of levels.
+
+    Up to its knee the slider is even, beyond it runs by factors to the largest level: lengths over radii
+    have no bound, but what is read is below 2.5 π; angles end at π, and there the slider is even all the
+    way. The colours have the median level in their middle, by a power.
+
+    Parameters
+    ----------
+    levels : (n,) array
+    angles : bool
+        Whether levels are angles, as those of surface skeletons are.
 
     Examples
     --------
-    >>> scale(np.array([-np.inf, 1.0, 2.0, 9.0]))["systematic"]
-    True
+    >>> found = scale(np.array([-np.inf, 1.0, 2.0, 9.0]))
+    >>> found["systematic"], found["knee"] / np.pi
+    (True, 2.5)
     """
     finite = levels[np.isfinite(levels)]
     steps = np.ceil(finite.max(initial=0.0) / np.pi * 100 + 1e-6) / 100
     largest = float(max(steps, 0.01) * np.pi)
     middle = float(np.median(finite)) if len(finite) else largest
     power = float(np.clip(np.log(max(middle, 1e-9) / largest) / np.log(0.5), 1, 4))
-    return {"largest": largest, "power": round(power, 3), "systematic": bool(np.isneginf(levels).any())}
+    knee = np.pi if angles else 2.5 * np.pi
+    systematic = bool(np.isneginf(levels).any())
+    return {"largest": largest, "knee": knee, "power": round(power, 3), "systematic": systematic}
 
 
 def counts(header: dict[str, Any], data: bytes, threshold: float, strategy: int = 0) -> dict[str, int]:

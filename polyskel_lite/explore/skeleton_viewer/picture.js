@@ -15,9 +15,9 @@ const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 25
 /** One picture: everything drawn in its order, with what all steps share. */
 export class Picture {
   constructor(viewer, width, height, ratio, level) {
-    const { view, buffers, camera, header, cut, shapeCut, counted, filter, sceneNow: scene } = viewer;
-    const gl = view.gl, colors = header.colors, color = viewer.get("color");
-    Object.assign(this, { viewer, view, gl, buffers, header, colors, color, cut, shapeCut, counted, filter, scene, ratio });
+    const { view, buffers, camera, palette, cut, shapeCut, counted, filter, sceneNow: scene } = viewer;
+    const gl = view.gl, { colors } = palette, color = viewer.get("color");
+    Object.assign(this, { viewer, view, gl, buffers, palette, colors, color, cut, shapeCut, counted, filter, scene, ratio });
     this.solid = viewer.dimension === 3;
     this.coarse = LEVELS[level].scale < 1;
     this.fine = LEVELS[level].samples > 1;
@@ -27,7 +27,7 @@ export class Picture {
     this.skeleton = color === "none" ? this.paint(colors.skeleton) : {};
     // Buffers are made anew when these change.
     this.label = `${scene.label}|${filter.label}`;
-    this.stamp = `${this.label}|${color}`;
+    this.stamp = `${this.label}|${color}|${palette.name}`;
     const reach = camera.half.map((half) => half + 0.3 * camera.radius);
     this.base = {
       ...camera.matrices(width / height, viewer.outline(), 1 - (BAR * ratio) / height),
@@ -39,7 +39,7 @@ export class Picture {
     gl.viewport(0, 0, width, height);
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(0, 0, width, height);
-    gl.clearColor(1, 1, 1, 1);
+    gl.clearColor(...rgb(palette.ground), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -56,7 +56,7 @@ export class Picture {
     if (solid) gl.enable(gl.DEPTH_TEST);
     if (solid && scene.sizes.length) {
       if (shown("polygons")) this.polygons();
-      if (shown("edges") && !this.coarse) this.sides(shown("polygons") ? 0.3 * clamp(15000 / this.counted.edges, 0.3, 1) : 0.75);
+      if (shown("edges") && !this.coarse) this.sides(shown("polygons"));
     }
     // Soft rims of wires and dots would hide what lies behind them in space: samples of a pixel instead, or hard rims.
     if (solid) gl.disable(gl.BLEND);
@@ -112,7 +112,7 @@ export class Picture {
 
   /** The colour of each vertex, four bytes each (the fourth only fills up). */
   values() {
-    const { scene, filter, color } = this, out = new Uint8Array(4 * scene.count), ramp = this.header.ramp.map(rgb);
+    const { scene, filter, color } = this, out = new Uint8Array(4 * scene.count), ramp = this.palette.ramp.map(rgb);
     const { largest, power } = filter.header, { levels, rank } = filter, last = ramp.length - 1;
     for (let v = 0; v < scene.count; v++) {
       const level = rank[v] < levels.length ? levels[rank[v]] : Infinity;
@@ -156,12 +156,13 @@ export class Picture {
     this.gl.enable(this.gl.BLEND);
   }
 
-  /** All edges as thin dark lines, which tell the polygons apart. */
-  sides(alpha) {
+  /** All edges as thin lines: dark ones between polygons, to tell these apart; alone, of the colour of writing. */
+  sides(between) {
     this.bindSkeleton();
     this.gl.disableVertexAttribArray(1);
     this.indices("sides", this.label, () => this.filter.sides());
-    this.use("faces", { plain: [0.05, 0.07, 0.12, 1], alpha });
+    const alpha = between ? 0.3 * clamp(15000 / this.counted.edges, 0.3, 1) : 0.75;
+    this.use("faces", { ...this.paint(between ? "#0d121f" : this.palette.ink), alpha });
     this.gl.depthMask(false);
     this.elements(this.gl.LINES, 2 * this.counted.edges);
     this.gl.depthMask(true);

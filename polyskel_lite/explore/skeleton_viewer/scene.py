@@ -8,19 +8,21 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_hex
 
 from ...containment import DelaunayShape, delaunay_shape
-from ...drawing import KINDS, RAMP, VIEW
+from ...drawing import KINDS
 from ...errors import InputError
 from ...polyballs import Polyball
 from ...shapes import Shape
 from ...simplification import Hierarchy, hierarchy
 from ...skeletons import Skeleton
+from .outlook import camera
 from .pack import Packer, pack_hierarchy, pack_polyball, pack_shape, pack_skeleton, scale
 
 # Stands for a hierarchy where there is none.
-_NOTHING = {"largest": np.pi, "power": 1, "systematic": False}
+_NOTHING = {"largest": np.pi, "knee": np.pi, "power": 1, "systematic": False}
+# Where the paper cuts: a length over a radius (wireframes: an area over its square), or an angle.
+_PAPER = {"branch": 2 * np.pi, "wireframe": 2 * np.pi, "surface": np.pi / 3}
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +74,20 @@ def as_states(source, strategies: Sequence[str] | None, shape) -> list[State]:
     return states
 
 
+def paper_thresholds(state: State) -> dict[str, float]:
+    """Where each strategy of a state starts if nobody says where.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> (state,) = as_states(psl.datasets.load("fourbranch"), None, None)
+    >>> {name: round(threshold / np.pi, 3) for name, threshold in paper_thresholds(state).items()}
+    {'surface': 0.333, 'wireframe': 2.0}
+    """
+    known = {name: _PAPER[h.strategy] for name, h in zip(state.names, state.hierarchies, strict=True)}
+    return known or {"": 0.0}
+
+
 def _state(label: str, source, strategies, shape) -> State:
     if isinstance(source, Skeleton):
         return State(label, None if shape is None else _delaunay(shape), source, (), ())
@@ -109,15 +125,6 @@ def _same(P: DelaunayShape, Q: DelaunayShape) -> bool:
     return np.array_equal(P.inner, Q.inner) and np.array_equal(*simplices)
 
 
-def _camera(view) -> tuple[dict[str, float], int]:
-    """Elevation and azimuth, and which axis points up."""
-    view = VIEW if view is None else view
-    if not isinstance(view, Mapping):
-        view = dict(zip(VIEW, view, strict=True))
-    up = "xyz".index(view.get("vertical_axis", "z"))
-    return {name: float(view.get(name, usual)) for name, usual in VIEW.items()}, up
-
-
 def pack_scene(states: Sequence[State], variant: str, view) -> tuple[dict[str, Any], bytes]:
     """The header and the block of arrays that the browser gets.
 
@@ -136,19 +143,21 @@ def pack_scene(states: Sequence[State], variant: str, view) -> tuple[dict[str, A
     >>> header["variant"], header["filters"], len(block) > 1000
     ('Size', True, True)
     """
-    view, up = _camera(view)
     dimension = states[0].skeleton.dimension
-    # The browser's third axis points up; a cyclic change of axes keeps the orientation.
-    turn = partial(np.roll, shift=2 - up if dimension == 3 else 0, axis=-1)
     boxes = [_box(state) for state in states]
     low, high = np.min([b[0] for b in boxes], axis=0), np.max([b[1] for b in boxes], axis=0)
+    view, up = camera(view, _first_seen(states[0], low, high))
+    # The browser's third axis points up; a cyclic change of axes keeps the orientation.
+    turn = partial(np.roll, shift=2 - up if dimension == 3 else 0, axis=-1)
     margin = 0.15 * np.linalg.norm(high - low)
     radius = max(_largest_radius(state.skeleton, low - margin, high + margin) for state in states) or 1.0
     packer = Packer()
     grid = turn(low - margin), turn(high + margin)
     # One scale for all variants, so that the slider does not jump.
     alike = zip(*(state.hierarchies for state in states), strict=True)
-    scales = [scale(np.concatenate([h.level for h in some])) for some in alike]
+    scales = [
+        scale(np.concatenate([h.level for h in some]), angles=some[0].strategy == "surface") for some in alike
+    ]
     variants = []
     for state in states:
         places = {"vertices": turn(state.skeleton.vertices), "rays": turn(state.skeleton.rays)}
@@ -183,7 +192,6 @@ def pack_scene(states: Sequence[State], variant: str, view) -> tuple[dict[str, A
         "view": view,
         "up": "xyz"[up],
         "radius": radius,
-        "ramp": [to_hex(RAMP(x)) for x in np.linspace(0, 1, 17)],
         "colors": colors,
         "variant": variant[:1].upper() + variant[1:],
         "strategy": "Strategy",
@@ -207,6 +215,15 @@ def _box(state: State) -> tuple[np.ndarray, np.ndarray]:
     else:
         points = state.skeleton.vertices
     return points.min(axis=0), points.max(axis=0)
+
+
+def _first_seen(state: State, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """Vertices and middles of edges of the skeleton as the paper cuts it, in a box."""
+    skeleton = state.skeleton
+    if state.hierarchies:
+        skeleton = state.hierarchies[0].skeleton(paper_thresholds(state)[state.names[0]])
+    points = np.concatenate([skeleton.vertices, skeleton.vertices[skeleton.edges].mean(axis=1)])
+    return points[((points >= low) & (points <= high)).all(axis=1)]
 
 
 def _largest_radius(skeleton: Skeleton, low: np.ndarray, high: np.ndarray) -> float:

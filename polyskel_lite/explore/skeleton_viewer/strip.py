@@ -51,9 +51,9 @@ def still_pictures(states: Sequence, scene: dict[str, Any], now: dict[str, Any])
             f'alt="{html.escape(scene["alt"] + " " + words, quote=True)}">'
             f"<figcaption>{html.escape(words)}</figcaption></figure>"
         )
-    look = f"<p>{html.escape(scene['look'])}</p>\n" if scene["look"] else ""
+    look = f"<p>{html.escape(scene['look'])}</p>" if scene["look"] else ""
     row = '<div style="display:flex;flex-wrap:wrap;gap:0.8rem">'
-    return f'<div class="psl-strip">{look}{row}{"".join(figures)}</div></div>'
+    return f'<div class="psl-strip">{row}{"".join(figures)}</div>{look}</div>'
 
 
 def _settings(states: Sequence, scene: dict[str, Any], now: dict[str, Any]):

@@ -1,14 +1,16 @@
-// A viewer: its controls, what they show, and when it draws.
+// A viewer: its parts, its state, and when it draws.
 
-import { Camera, PI, clamp } from "./camera.js";
+import { Camera, PI } from "./camera.js";
+import { Controls } from "./controls.js";
 import { make, ownName } from "./dom.js";
 import { Buffers, renderer } from "./gl.js";
+import { howTo, obey } from "./hand.js";
 import { LEVELS, Picture } from "./picture.js";
+import { followTheme, palette } from "./theme.js";
+import { multiple } from "./threshold.js";
 
-const STEPS = 400; // of the threshold slider
 const PLURALS = { vertex: "vertices", branch: "branches", cavity: "cavities" };
 const many = (n, word) => `${n.toLocaleString("en")} ${n === 1 ? word : PLURALS[word] ?? `${word}s`}`;
-const multiple = (t) => (t === -Infinity ? "none" : `${Number((t / PI).toFixed(3))} π`);
 
 export class Viewer {
   constructor(model, element, scenes) {
@@ -25,11 +27,17 @@ export class Viewer {
     this.update();
   }
 
-  get(name) { const value = this.model.get(name); return name === "threshold" && value === null ? -Infinity : value; }
+  /** What the model says; the threshold is that of the strategy shown, for each has its own (none: null there). */
+  get(name) {
+    if (name !== "threshold") return this.model.get(name);
+    const threshold = this.model.get("thresholds")?.[this.filter.label];
+    return threshold === null ? -Infinity : threshold ?? 0;
+  }
 
   set(name, value) {
     if (this.get(name) === value) return;
-    this.model.set(name, value === -Infinity ? null : value);
+    if (name !== "threshold") this.model.set(name, value);
+    else this.model.set("thresholds", { ...this.model.get("thresholds"), [this.filter.label]: value === -Infinity ? null : value });
     clearTimeout(this.saving);
     this.saving = setTimeout(() => this.model.save_changes(), 40);
   }
@@ -41,11 +49,10 @@ export class Viewer {
     return hierarchies.find((h) => h.label === this.get("strategy")) ?? hierarchies[0];
   }
 
-  // ------------------------------------------------------------ controls
+  get palette() { return palette(this.element, this.header.colors, this.scenes.some((s) => s.surface)); }
 
   build() {
-    const { header, id, dimension } = this;
-    const solid = dimension === 3;
+    const { header, id, dimension, element } = this;
     this.canvas = make("canvas", {
       tabindex: "0", role: "application", "aria-roledescription": "interactive picture", "aria-label": header.alt,
       "aria-describedby": `${id}-hint`,
@@ -53,19 +60,17 @@ export class Viewer {
     this.stage = make("div", { class: "psl-stage", style: `height:${header.height}px` }, this.canvas);
     this.status = make("p", { class: "psl-status", "aria-hidden": "true" });
     this.heard = make("p", { class: "psl-only-heard", role: "status", "aria-live": "polite" });
-    this.controls = make("div", { class: "psl-controls" });
-    const hint = make("p", { class: "psl-hint", id: `${id}-hint` },
-      `${solid ? "Drag to turn, Shift and drag to move" : "Drag to move"}; after a click the wheel zooms. `
-      + `Keys: arrows ${solid ? "turn, Shift and arrows move" : "move"}, + and − zoom, Home resets.`);
-    this.rows();
-    this.element.classList.add("psl");
-    this.element.setAttribute("role", "group");
-    this.element.setAttribute("aria-label", header.name);
-    if (header.look) this.element.append(make("p", { class: "psl-look" }, header.look));
-    this.element.append(this.stage, this.status, this.heard, this.controls, hint);
+    this.controls = new Controls(this);
+    element.classList.add("psl");
+    element.setAttribute("role", "group");
+    element.setAttribute("aria-label", header.name);
+    element.append(this.stage);
+    if (header.look) element.append(make("p", { class: "psl-look" }, header.look));
+    element.append(this.status, this.heard, this.controls.root);
+    element.append(make("p", { class: "psl-hint", id: `${id}-hint` }, `${howTo(dimension === 3)} Branches are counted by their free ends.`));
     // JupyterLab's shortcuts would keep arrow keys and letters from the part that has the focus.
-    for (const part of this.element.querySelectorAll("canvas, input, select, button")) part.dataset.lmSuppressShortcuts = "true";
-    this.pointer();
+    for (const part of element.querySelectorAll("canvas, input, select, button, summary")) part.dataset.lmSuppressShortcuts = "true";
+    obey(this.canvas, this.camera, dimension === 3, () => this.draw());
     const sizes = new ResizeObserver(() => this.draw());
     sizes.observe(this.stage);
     const inSight = new IntersectionObserver((entries) => {
@@ -73,172 +78,11 @@ export class Viewer {
       if (this.seen) this.draw(); else this.rest();
     }, { rootMargin: "300px" });
     inSight.observe(this.stage);
-    this.gone.push(() => sizes.disconnect(), () => inSight.disconnect());
-  }
-
-  row(text, control, output = "", wide = false) {
-    const label = make("label", { for: control.id }, text);
-    this.controls.append(make("div", { class: wide ? "psl-row psl-wide" : "psl-row" }, label, control, output));
-  }
-
-  slider(key, name, text, options, { shown, value, wide }) {
-    const input = make("input", { type: "range", id: `${this.id}-${key}`, "data-control": key, "aria-label": text, ...options });
-    const output = make("output", { for: input.id });
-    input.addEventListener("input", () => { this.set(name, value(Number(input.value))); this.update(); });
-    this.row(text, input, output, wide);
-    this.refreshers.push(() => {
-      const now = this.get(name), words = shown(now);
-      if (output.textContent !== words) { output.textContent = words; input.setAttribute("aria-valuetext", words); }
-    });
-    return input;
-  }
-
-  rows() {
-    const { header, id } = this;
-    const first = this.scenes[0], solid = this.dimension === 3;
-    this.refreshers = [];
-    if (header.filters) this.thresholdRow();
-    if (this.scenes.length > 1) {
-      const labels = this.scenes.map((s) => s.label);
-      const input = this.slider("variant", "variant", header.variant, { min: "0", max: String(labels.length - 1), step: "1" },
-        { shown: (v) => v, value: (i) => labels[i], wide: true });
-      this.refreshers.push(() => { input.value = String(Math.max(labels.indexOf(this.get("variant")), 0)); });
-    }
-    const strategies = first.hierarchies.map((h) => h.label);
-    if (strategies.length > 1) {
-      const set = make("fieldset", { class: "psl-wide" }, make("legend", {}, header.strategy));
-      for (const name of strategies) {
-        const input = make("input", { type: "radio", name: `${id}-strategy`, value: name, "data-control": "strategy",
-          onchange: () => { this.set("strategy", name); this.update(); } });
-        set.append(make("label", {}, input, name));
-        this.refreshers.push(() => { input.checked = this.filter.label === name; });
-      }
-      this.controls.append(set);
-    }
-    const share = { min: "0", max: "100", step: "1" };
-    const percent = { shown: (v) => `${Math.round(100 * v)} %`, value: (v) => v / 100 };
-    if (header.shape) {
-      if (header.filters) {
-        const ends = { ...percent, shown: (v) => (v <= 0 ? "whole" : v >= 1 ? "simplified" : percent.shown(v)) };
-        const input = this.slider("simplified", "simplified", "Simplify shape", share, ends);
-        this.refreshers.push(() => { input.value = String(Math.round(100 * this.get("simplified"))); });
-      }
-      const input = this.slider("opacity", "opacity", "Shape opacity", share, percent);
-      this.refreshers.push(() => { input.value = String(Math.round(100 * this.get("opacity"))); });
-    }
-    const names = { radius: "radius", level: "level", none: "one colour" };
-    const colors = Object.keys(names).filter((c) => c !== "level" || header.filters);
-    const select = make("select", { id: `${id}-color`, "data-control": "color",
-      onchange: () => { this.set("color", select.value); this.update(); } },
-    ...colors.map((c) => make("option", { value: c }, names[c])));
-    this.row("Colour", select);
-    this.refreshers.push(() => { select.value = this.get("color"); });
-    const set = make("fieldset", { class: "psl-wide" }, make("legend", {}, "Show"));
-    for (const key of ["samples", "vertices", "edges", ...(solid ? ["polygons"] : [])]) {
-      if (key === "samples" && !header.samples) continue;
-      const input = make("input", { type: "checkbox", "data-control": key,
-        onchange: () => { this.set(key, input.checked); this.update(); } });
-      set.append(make("label", {}, input, key));
-      this.refreshers.push(() => { input.checked = this.get(key); });
-    }
-    const button = (text, label, act, key) => make("button", { type: "button", "aria-label": label, "data-control": key, onclick: act }, text);
-    this.controls.append(set, make("div", { class: "psl-bar" },
-      button("+", "Zoom in", () => { this.camera.scale(1.25); this.draw(); }, "in"),
-      button("−", "Zoom out", () => { this.camera.scale(0.8); this.draw(); }, "out"),
-      button("Reset view", "Reset view", () => { this.camera.reset(); this.draw(); }, "reset"),
-      button("Save picture", "Save picture as PNG", () => this.save(), "save")));
-  }
-
-  /** The slider is finer where most elements go; the field takes any number. Its first step can be "none". */
-  thresholdRow() {
-    const input = make("input", { type: "range", id: `${this.id}-threshold`, "data-control": "threshold", min: "0",
-      max: String(STEPS), step: "1" });
-    const field = make("input", { type: "number", min: "0", step: "0.05", "data-control": "threshold-number",
-      "aria-label": "Threshold as a multiple of π", placeholder: "none" });
-    const scale = () => this.filter.header;
-    const first = () => (scale().systematic ? 1 : 0);
-    const valueAt = (k) => {
-      const share = (k - first()) / (STEPS - first());
-      return share < 0 ? -Infinity : (Math.round(1000 * ((scale().largest / PI) * share ** scale().power)) / 1000) * PI;
-    };
-    const placeOf = (t) => (t === -Infinity ? 0
-      : first() + Math.round((STEPS - first()) * clamp(t / scale().largest, 0, 1) ** (1 / scale().power)));
-    input.addEventListener("input", () => {
-      // Steps that round to the same multiple of π / 1000 would be steps that do nothing.
-      let k = Number(input.value), t = valueAt(k);
-      const now = this.get("threshold"), up = k > this.place;
-      while (t === now && k !== this.place && k > 0 && k < STEPS) { k += up ? 1 : -1; t = valueAt(k); }
-      input.value = String(k);
-      this.place = k;
-      this.set("threshold", t);
-      this.update();
-    });
-    const typed = () => {
-      const t = field.value === "" ? -Infinity : Number(field.value) * PI;
-      if (Number.isFinite(t) || field.value === "") { this.set("threshold", t); this.update(); }
-    };
-    field.addEventListener("change", typed);
-    this.row("Threshold", input, make("span", {}, field, " π"), true);
-    this.refreshers.push(() => {
-      const t = this.get("threshold");
-      if (valueAt(Number(input.value)) !== t) input.value = String(placeOf(t));
-      this.place = Number(input.value);
-      input.setAttribute("aria-valuetext", t === -Infinity ? "nothing removed" : multiple(t));
-      if (document.activeElement !== field || Number(field.value) * PI !== t) {
-        field.value = t === -Infinity ? "" : String(Number((t / PI).toFixed(3)));
-      }
-    });
-  }
-
-  pointer() {
-    const canvas = this.canvas, held = new Map();
-    const at = (event) => { const r = canvas.getBoundingClientRect(); return [event.clientX - r.left, event.clientY - r.top]; };
-    const relative = (x, y) => [(2 * x) / canvas.clientWidth - 1, 1 - (2 * y) / canvas.clientHeight];
-    const pan = (dx, dy) => { this.camera.x += (2 * dx) / canvas.clientWidth; this.camera.y -= (2 * dy) / canvas.clientHeight; };
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      held.set(event.pointerId, at(event));
-      canvas.focus({ preventScroll: true });
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      const before = held.get(event.pointerId);
-      if (!before) return;
-      const now = at(event), dx = now[0] - before[0], dy = now[1] - before[1];
-      if (held.size === 2) {
-        const [, other] = [...held].find(([key]) => key !== event.pointerId);
-        const distance = (p) => Math.max(Math.hypot(p[0] - other[0], p[1] - other[1]), 1);
-        pan(dx / 2, dy / 2);
-        this.camera.scale(distance(now) / distance(before), ...relative((now[0] + other[0]) / 2, (now[1] + other[1]) / 2));
-      } else if (this.dimension === 2 || event.shiftKey || event.buttons & 6) pan(dx, dy);
-      else this.camera.turn(dx * 0.45, dy * 0.45);
-      held.set(event.pointerId, now);
-      this.draw();
-    });
-    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => held.delete(event.pointerId));
-    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-    canvas.addEventListener("wheel", (event) => {
-      if (document.activeElement !== canvas && !event.ctrlKey) return; // the page scrolls on
-      event.preventDefault();
-      this.camera.scale(Math.exp(-clamp(event.deltaY * (event.deltaMode ? 20 : 1), -120, 120) * 0.0025), ...relative(...at(event)));
-      this.draw();
-    }, { passive: false });
-    canvas.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-      if (event.ctrlKey || event.metaKey || event.altKey) return;
-      if (step && (this.dimension === 2 || event.shiftKey)) pan(24 * step[0], 24 * step[1]);
-      else if (step) this.camera.turn(6 * step[0], 6 * step[1]);
-      else if (event.key === "+" || event.key === "=") this.camera.scale(1.15);
-      else if (event.key === "-" || event.key === "_") this.camera.scale(1 / 1.15);
-      else if (event.key === "Home" || event.key === "0") this.camera.reset();
-      else return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.draw();
-    });
+    this.gone.push(() => sizes.disconnect(), () => inSight.disconnect(), followTheme(() => this.draw()));
   }
 
   follow() {
-    const names = ["threshold", "strategy", "variant", "opacity", "simplified", "color", "samples", "vertices", "edges", "polygons"];
+    const names = ["thresholds", "strategy", "variant", "opacity", "simplified", "color", "samples", "vertices", "edges", "polygons"];
     const changed = () => this.update();
     for (const name of names) {
       this.model.on(`change:${name}`, changed);
@@ -255,7 +99,7 @@ export class Viewer {
     if (this.counted?.filter !== filter || this.counted.cut !== this.cut) {
       this.counted = { filter, cut: this.cut, ...filter.counts(this.cut) };
     }
-    this.refreshers.forEach((refresh) => refresh());
+    this.controls.refresh();
     const { vertices, edges, polygons, branches } = this.counted, { betti } = filter.header;
     const data = { threshold, strategy: filter.label, variant: this.sceneNow.label, vertices, edges, polygons, branches,
       betti: betti ? betti.join(",") : "", ready: true };
@@ -353,16 +197,16 @@ export class Viewer {
 
   /** A scale of colours with three numbers, part of the picture so that it is saved with it. */
   colorBar(context, width, height, ratio) {
-    const color = this.get("color"), { header, filter } = this;
+    const color = this.get("color"), { header, filter, palette: { ramp, ground, ink } } = this;
     if (color === "none") return;
     const w = Math.min(150 * ratio, width * 0.4), h = 9 * ratio, x = 14 * ratio, y = height - 34 * ratio;
     const gradient = context.createLinearGradient(x, 0, x + w, 0);
-    header.ramp.forEach((hex, k) => gradient.addColorStop(k / (header.ramp.length - 1), hex));
-    context.fillStyle = "rgba(255,255,255,0.75)";
+    ramp.forEach((hex, k) => gradient.addColorStop(k / (ramp.length - 1), hex));
+    context.fillStyle = `${ground}bf`;
     context.fillRect(x - 10 * ratio, y - 18 * ratio, w + 24 * ratio, 50 * ratio);
     context.fillStyle = gradient;
     context.fillRect(x, y, w, h);
-    context.fillStyle = "#222";
+    context.fillStyle = ink;
     context.font = `${11 * ratio}px system-ui, sans-serif`;
     context.textBaseline = "alphabetic";
     context.textAlign = "left";

@@ -17,12 +17,12 @@ import traitlets
 from ...errors import InputError
 from ..bundle import one_module
 from . import pack
-from .scene import State, as_states, description, pack_scene
+from .scene import State, as_states, description, pack_scene, paper_thresholds
 from .strip import still_pictures
 
 _MODULE = one_module()
 _COLORS = ("radius", "level", "none")
-_STATE = ("threshold", "strategy", "variant", "opacity", "simplified", "color")
+_STATE = ("thresholds", "strategy", "variant", "opacity", "simplified", "color")
 _SHOWN = ("samples", "vertices", "edges", "polygons")
 
 
@@ -52,21 +52,24 @@ def viewer(
     color : "radius", "level" or "none"
         What the colours of the skeleton stand for.
     threshold : float, optional
-        In radians, at the beginning; 0 by default; -inf shows the whole skeleton.
+        In radians, at the beginning, of the strategy that is shown first; -inf shows the whole skeleton. Each
+        strategy has a threshold of its own; those not given start where the paper cuts: π/3 for "surface",
+        2 π for "wireframe" and "branch".
     alt : str, optional
         What the picture shows, for those who do not see it.
     height : int
         Of the picture, in pixels.
     look : str
-        A sentence over the picture: what to look for.
+        A sentence under the picture: what to look for.
     variant : str
         What the keys of a dict are, such as "number of samples".
     shape : Shape, DelaunayShape or Polyball, or dict of these, optional
         To be shown around a `Skeleton`; a dict has one for each key of `source`.
     view : (elevation, azimuth) in degrees, or dict, optional
-        Where the camera stands in 3D, as for ``ax.view_init`` (``elev``, ``azim``, ``vertical_axis``).
+        Where the camera stands in 3D, as for ``ax.view_init`` (``elev``, ``azim``, ``vertical_axis``); by
+        default where parts of the skeleton hide each other least.
     **state
-        Other traits of `SkeletonViewer`: ``opacity``, ``simplified``, ``samples``, ``vertices`` ...
+        Other traits of `SkeletonViewer`: ``strategy``, ``opacity``, ``simplified``, ``samples`` ...
 
     Returns
     -------
@@ -92,9 +95,13 @@ def viewer(
     scene, block = pack_scene(states, variant, view)
     about = alt or description(states)
     scene |= {"alt": about, "look": look, "height": int(height), "name": "Skeleton viewer"}
+    thresholds = paper_thresholds(states[0])
+    first = state.get("strategy", next(iter(thresholds)))
+    if threshold is not None and first in thresholds:
+        thresholds[first] = float(threshold)
     start = {
-        "threshold": 0.0 if threshold is None else float(threshold),
-        "strategy": scene["variants"][0]["hierarchies"][0]["label"],
+        "thresholds": thresholds,
+        "strategy": first,
         "variant": states[0].label,
         "opacity": 1.0 if scene["dimension"] == 2 else 0.35,
         "color": color,
@@ -102,7 +109,7 @@ def viewer(
     unknown = state.keys() - {*_STATE, *_SHOWN}
     if unknown:
         raise InputError(
-            f"unknown option {min(unknown)!r}; choose one of {', '.join((*_STATE[3:5], *_SHOWN))}."
+            f"unknown option {min(unknown)!r}; choose one of {', '.join((_STATE[1], *_STATE[3:5], *_SHOWN))}."
         )
     return SkeletonViewer(states, scene=scene, blob=block, **start | state)
 
@@ -113,7 +120,9 @@ class SkeletonViewer(anywidget.AnyWidget):
     Attributes
     ----------
     threshold : float
-        In radians; -inf: nothing removed.
+        Of the strategy shown, in radians; -inf: nothing removed.
+    thresholds : dict
+        Of every strategy; ``threshold`` is its entry for ``strategy``.
     strategy, variant : str
         Which hierarchy, and which entry of a dict.
     opacity : float
@@ -133,17 +142,28 @@ class SkeletonViewer(anywidget.AnyWidget):
     >>> picture.threshold = 2 * np.pi
     >>> picture.counts()["branches"]
     8
+
+    Each strategy keeps its threshold:
+
+    >>> picture = explore.viewer(psl.datasets.load("fourbranch"), threshold=1.0)
+    >>> picture.strategy = "wireframe"
+    >>> picture.threshold == 2 * np.pi
+    True
+    >>> picture.strategy = "surface"
+    >>> picture.threshold
+    1.0
     """
 
     _esm = _MODULE
     scene = traitlets.Dict().tag(sync=True)
     blob = traitlets.Bytes().tag(sync=True)
     strip = traitlets.Unicode().tag(sync=True)
+    threshold = traitlets.Float()  # not sent: the browser has the entry of thresholds
     # JSON has no infinity, so it travels as null.
-    threshold = traitlets.Float().tag(
+    thresholds = traitlets.Dict().tag(
         sync=True,
-        to_json=lambda value, _: value if np.isfinite(value) else None,
-        from_json=lambda value, _: -np.inf if value is None else value,
+        to_json=lambda value, _: {name: t if np.isfinite(t) else None for name, t in value.items()},
+        from_json=lambda value, _: {name: -np.inf if t is None else t for name, t in value.items()},
     )
     strategy = traitlets.Unicode().tag(sync=True)
     variant = traitlets.Unicode().tag(sync=True)
@@ -161,18 +181,31 @@ class SkeletonViewer(anywidget.AnyWidget):
 
     @traitlets.validate("threshold")
     def _check_threshold(self, proposal):
-        value = float(proposal["value"])
-        if np.isnan(value) or value == np.inf:
-            raise InputError(f"threshold is {value}; pass an angle in radians, or -inf for nothing removed.")
-        return value
+        return _angle(proposal["value"])
+
+    @traitlets.validate("thresholds")
+    def _check_thresholds(self, proposal):
+        """Those that are not given stay."""
+        given = {self._known("strategy", name): _angle(t) for name, t in proposal["value"].items()}
+        return self.thresholds | given
 
     @traitlets.validate("strategy", "variant")
     def _check_name(self, proposal):
-        value, kind = proposal["value"], proposal["trait"].name
+        return self._known(proposal["trait"].name, proposal["value"])
+
+    @traitlets.observe("strategy", "thresholds")
+    def _take_threshold(self, _):
+        self.threshold = self.thresholds[self.strategy]
+
+    @traitlets.observe("threshold")
+    def _keep_threshold(self, _):
+        self.thresholds = {self.strategy: self.threshold}
+
+    def _known(self, kind: str, name: str) -> str:
         known = self._names() if kind == "strategy" else [state.label for state in self._states]
-        if value not in known:
-            raise InputError(f"unknown {kind} {value!r}; choose one of {', '.join(map(repr, known))}.")
-        return value
+        if name not in known:
+            raise InputError(f"unknown {kind} {name!r}; choose one of {', '.join(map(repr, known))}.")
+        return name
 
     def _names(self) -> list[str]:
         return [h["label"] for h in self.scene["variants"][0]["hierarchies"]]
@@ -216,7 +249,7 @@ class SkeletonViewer(anywidget.AnyWidget):
 
     def get_state_of_picture(self) -> dict[str, Any]:
         """The traits that say what is shown."""
-        return {name: getattr(self, name) for name in (*_STATE, *_SHOWN)}
+        return {name: getattr(self, name) for name in ("threshold", *_STATE, *_SHOWN)}
 
     def save(self, path: str | PathLike, title: str = "Skeleton viewer") -> None:
         """Write a page of its own that works from disk, without a server, a kernel or the network.
@@ -247,3 +280,10 @@ class SkeletonViewer(anywidget.AnyWidget):
         bundle = super()._repr_mimebundle_(**options)
         data, metadata = bundle if isinstance(bundle, tuple) else (bundle, {})
         return data | {"text/plain": "SkeletonViewer", "text/html": page}, metadata
+
+
+def _angle(threshold) -> float:
+    value = float(threshold)
+    if np.isnan(value) or value == np.inf:
+        raise InputError(f"threshold is {value}; pass an angle in radians, or -inf for nothing removed.")
+    return value

@@ -16,10 +16,10 @@ export class Knob {
       this.part = this.input;
     } else if (this.kind === "check") {
       this.input = make("input", { type: "checkbox", id, onchange: heard });
-      this.part = make("span", { class: "psl-knob" }, this.input, name);
+      this.part = make("span", { class: "psl-part" }, this.input, name);
     } else if (this.kind === "choice") {
       this.input = make("select", { id, onchange: heard });
-      this.part = make("span", { class: "psl-knob" }, name, this.input);
+      this.part = make("span", { class: "psl-part" }, name, this.input);
       this.fill(this.options);
     } else {
       const { min, max, step } = this;
@@ -29,7 +29,7 @@ export class Knob {
         this.input.value = this.number.value === "" ? this.value : this.number.value;
         heard();
       } });
-      this.part = make("span", { class: "psl-knob psl-slider" }, name, this.input, this.number);
+      this.part = make("span", { class: "psl-part psl-slider" }, name, this.input, this.number);
     }
     this.input.dataset.control = this.name;
     this.show();

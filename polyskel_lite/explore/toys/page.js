@@ -4,30 +4,50 @@ import { render } from "../drawing_board/board.js";
 import { make } from "../skeleton_viewer/dom.js";
 import { panel } from "./knobs.js";
 import { predictions } from "./predict.js";
+import { said } from "./toy.js";
+
+/** Words of the text that are tied to the explorer above them, or to the first one: see notebooks/states.py. */
+function tied(root, kind) {
+  const all = [...document.querySelectorAll(".psl-toy")];
+  const above = (words) => all.findLast((toy) => toy.compareDocumentPosition(words) & Node.DOCUMENT_POSITION_FOLLOWING);
+  return [...document.querySelectorAll(`.psl-${kind}`)].filter((words) => (above(words) ?? all[0]) === root);
+}
+
+function tie(root, toy) {
+  const open = () => !("locked" in root.dataset);
+  for (const words of tied(root, "state")) {
+    const onclick = () => {
+      if (open()) toy.set(JSON.parse(words.dataset.to));
+      root.scrollIntoView({ block: "nearest" });
+    };
+    words.replaceChildren(make("button", { type: "button", title: "Show this in the picture", onclick }, words.textContent));
+  }
+  const knobs = tied(root, "knob").map((words) => {
+    const { min, max, step, label } = toy.controls[words.dataset.to];
+    const oninput = () => { if (open() && input.value !== "") toy.set({ [words.dataset.to]: Number(input.value) }); };
+    const input = make("input", { type: "number", min: `${min}`, max: `${max}`, step: `${step}`, "aria-label": label, oninput });
+    words.replaceChildren(input);
+    return [words.dataset.to, input];
+  });
+  const readings = tied(root, "reading");
+  toy.drawn = () => {
+    for (const [name, input] of knobs) if (document.activeElement !== input) input.value = String(toy.value(name));
+    for (const words of readings) words.textContent = said(toy.numbers[words.dataset.to] ?? "-");
+  };
+}
 
 /** Put what moves in the place of the picture that stands still. */
 function mount(root, toys) {
   const told = JSON.parse(root.querySelector("script[type='application/json']").textContent);
   const toy = new toys[told.toy](told);
   const explorer = make("div", { class: "psl-explorer" }, panel(Object.values(toy.controls)));
+  tie(root, toy);
   toy.update();
   render({ model: toy.model, el: explorer });
   explorer.append(make("p", { class: "psl-look" }, toy.look));
   root.querySelector("figure").replaceWith(explorer);
   root.toy = toy;
   root.dataset.ready = "true";
-}
-
-/** Words in the text become a button that brings the explorer above them, or the first one, to a state. */
-function wire(words) {
-  const all = [...document.querySelectorAll(".psl-toy")];
-  const follows = (toy) => toy.compareDocumentPosition(words) & Node.DOCUMENT_POSITION_FOLLOWING;
-  const root = all.findLast(follows) ?? all[0];
-  const onclick = () => {
-    if (!("locked" in root.dataset)) root.toy?.set(JSON.parse(words.dataset.set));
-    root.scrollIntoView({ block: "nearest" });
-  };
-  if (root) words.replaceChildren(make("button", { type: "button", title: "Show this in the picture", onclick }, words.textContent));
 }
 
 /** `toys` are the explorers of this page by name. What is far down waits until the reader comes near. */
@@ -42,5 +62,4 @@ export function start(toys) {
     }
   }), { rootMargin: "600px" });
   document.querySelectorAll(".psl-toy").forEach((root) => near.observe(root));
-  document.querySelectorAll(".psl-set").forEach(wire);
 }

@@ -55,6 +55,7 @@ export class Toy {
   constructor(told) {
     Object.assign(this, { words: told.words, given: told.given, pens: told.pens, swatches: told.swatches, still: told.still });
     this.look = told.look;
+    this.numbers = {};
     this.hidden = new Set(told.hidden);
     this.model = new PageModel({ ...told.board }, () => this.update());
     this.view = new View(told.board._view);
@@ -68,6 +69,9 @@ export class Toy {
   get handles() { return this.model.get("handles"); }
 
   value(name) { return this.controls[name].value; }
+
+  /** Is told when the picture is drawn; what the text says of it follows. */
+  drawn() {}
 
   /** Hears of a control, before the picture is drawn; false: it stays as it is. */
   pressed() {}
@@ -98,6 +102,7 @@ export class Toy {
     this.redraw();
     const shown = Object.entries(this.swatches).filter(([name, swatch]) => swatch && this.model.get(`_svg_${name}`));
     this.model.set("_legend", [...new Set(shown.map(([, swatch]) => swatch))].join(""));
+    this.drawn();
   }
 }
 
