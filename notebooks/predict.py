@@ -8,9 +8,9 @@
     :::
 
 Options are the lines with a box; the right one has a cross, and where none has one the question is open. What
-follows is the verdict. With ``:place: x y tolerance`` the answer is a mark in the next picture instead, at most
-so far from the right place. ``:opens: none`` locks nothing; ``next`` locks the next picture that moves, even
-past another question. Without either it locks the next one in its section, up to the next question.
+follows is the verdict. With ``:place: x y tolerance`` the answer is a mark in the next picture instead, at
+most so far from the right place. ``:opens: none`` locks nothing; ``next`` locks the next picture that moves,
+even past another question. Without either it locks the next one in its section, up to the next question.
 
 The page holds question, options and folded answer as text; ``polyskel_lite/explore/toys/predict.js`` makes
 controls of them. conf.py loads this file by name: only Sphinx is needed.
