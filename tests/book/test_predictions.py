@@ -53,6 +53,11 @@ class TestQuestionsOfAChapter:
             for option in re.findall(r"^- \[x\] (.{15,})", found["body"], re.M):
                 assert option not in above
 
+    def test_an_option_is_more_than_a_formula(self, path):
+        """Programs that read a page aloud name a button by its words, and some skip formulas."""
+        for option in re.findall(r"^- \[[ x]\] (.*)", prose(path), re.M):
+            assert re.search(r"\w", re.sub(r"\$[^$]*\$", "", option)), option
+
     def test_no_prediction_is_left_as_a_sentence(self, path):
         sentence = r"\*+(?:Predict|Before you (?:move|drag))[^*]*\*|[^{]\bPredict(?: first)?:"
         assert re.findall(sentence, prose(path)) == []
