@@ -86,6 +86,8 @@ BUNDLE = runpy.run_path(str(ROOT / "polyskel_lite" / "explore" / "bundle.py"))
 VIEWER = BUNDLE["one_module"]()
 SHEETS = [BUNDLE["BOARD"].with_name("board.css"), BUNDLE["TOYS"] / "toys.css"]
 STYLE = "".join(sheet.read_text(encoding="utf-8") for sheet in SHEETS)
+#: A setting of Sphinx, so that pages are written again when what they hold of these has changed.
+moving_parts = VIEWER + STYLE + "".join(f.read_text("utf-8") for f in sorted(BUNDLE["TOYS"].glob("*.js")))
 
 
 def add_modules(app, pagename, templatename, context, doctree):
@@ -151,6 +153,7 @@ def make_light(app, error):
 
 
 def setup(app):
+    app.add_config_value("moving_parts", "", "html", str)
     app.connect("source-read", draw_the_house)
     app.connect("env-get-outdated", lambda *_: ["house"])  # its code may have changed though the page has not
     app.connect("html-page-context", say_what_colab_needs)

@@ -17,3 +17,29 @@ export function make(tag, attributes = {}, ...children) {
   node.append(...children);
   return node;
 }
+
+/** The data of a picture: those in the page, or those of a script that the page names and that is fetched now. */
+async function dataOf(root) {
+  const { textContent, dataset: { from, name } } = root.querySelector("script[type='application/json']");
+  if (!from) return JSON.parse(textContent);
+  await new Promise((fetched, failed) => {
+    const script = make("script", { src: from });
+    script.onload = fetched;
+    script.onerror = () => failed(new Error(`${from} is not there`));
+    document.head.append(script);
+  });
+  return globalThis.pslData[name];
+}
+
+/** Call with each of these parts of a page and its data, once the reader comes near. */
+export function whenNear(roots, call) {
+  const near = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
+    if (!isIntersecting) return;
+    near.unobserve(target);
+    dataOf(target).then((data) => call(target, data)).catch((error) => {
+      target.dataset.error = String(error);
+      console.warn("picture of this page:", error);
+    });
+  }), { rootMargin: "600px" });
+  for (const root of roots) near.observe(root);
+}

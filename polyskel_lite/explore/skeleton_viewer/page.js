@@ -2,7 +2,7 @@
 // all that it imports as one, from ../bundle.py.
 
 import { bytesOf, unpacked } from "./data.js";
-import { make } from "./dom.js";
+import { make, whenNear } from "./dom.js";
 import { renderer } from "./gl.js";
 import { Scene } from "./scene.js";
 import { STYLE } from "./style.js";
@@ -47,30 +47,12 @@ class PageModel {
   save_changes() {}
 }
 
-/** The data of a viewer: those in the page, or those of a script that the page names and that is fetched now. */
-async function dataOf(root) {
-  const { textContent, dataset: { from, name } } = root.querySelector("script[type='application/json']");
-  if (!from) return JSON.parse(textContent);
-  await new Promise((fetched, failed) => {
-    const script = make("script", { src: from });
-    script.onload = fetched;
-    script.onerror = () => failed(new Error(`${from} is not there`));
-    document.head.append(script);
-  });
-  return globalThis.pslData[name];
-}
-
-/** Mount every viewer of a page that holds its data. Data far down the page wait until the reader comes near. */
+/** Mount every viewer of a page that holds its data. */
 function mount(page = document) {
-  const near = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
-    if (!isIntersecting) return;
-    near.unobserve(target);
-    dataOf(target).then((data) => render({ model: new PageModel(data), el: target }))
-      .catch((error) => { target.dataset.error = String(error); console.warn("skeleton viewer:", error); });
-  }), { rootMargin: "600px" });
-  page.querySelectorAll(".psl-viewer").forEach((root) => {
-    if (root.querySelector("script[type='application/json']") && !root.dataset.found) { root.dataset.found = "true"; near.observe(root); }
-  });
+  const holding = (root) => root.querySelector("script[type='application/json']") && !root.dataset.found;
+  const roots = [...page.querySelectorAll(".psl-viewer")].filter(holding);
+  for (const root of roots) root.dataset.found = "true";
+  whenNear(roots, (root, data) => render({ model: new PageModel(data), el: root }));
 }
 
 if (typeof document !== "undefined") {

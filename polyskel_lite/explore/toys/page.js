@@ -1,7 +1,7 @@
 // Explorers and questions on a page without a kernel. A page gets this with the explorers that it has, see bundle.py.
 
 import { render } from "../drawing_board/board.js";
-import { make } from "../skeleton_viewer/dom.js";
+import { make, whenNear } from "../skeleton_viewer/dom.js";
 import { panel } from "./knobs.js";
 import { predictions } from "./predict.js";
 import { said } from "./toy.js";
@@ -37,9 +37,7 @@ function tie(root, toy) {
 }
 
 /** Put what moves in the place of the picture that stands still. */
-function mount(root, toys) {
-  const told = JSON.parse(root.querySelector("script[type='application/json']").textContent);
-  const toy = new toys[told.toy](told);
+function mount(root, toy) {
   const explorer = make("div", { class: "psl-explorer" }, panel(Object.values(toy.controls)));
   tie(root, toy);
   toy.update();
@@ -50,16 +48,8 @@ function mount(root, toys) {
   root.dataset.ready = "true";
 }
 
-/** `toys` are the explorers of this page by name. What is far down waits until the reader comes near. */
+/** `toys` are the explorers of this page by name. */
 export function start(toys) {
   predictions();
-  const near = new IntersectionObserver((entries) => entries.forEach(({ isIntersecting, target }) => {
-    if (!isIntersecting) return;
-    near.unobserve(target);
-    try { mount(target, toys); } catch (error) {
-      target.dataset.error = String(error);
-      console.warn("explorer:", error);
-    }
-  }), { rootMargin: "600px" });
-  document.querySelectorAll(".psl-toy").forEach((root) => near.observe(root));
+  whenNear(document.querySelectorAll(".psl-toy"), (root, told) => mount(root, new toys[told.toy](told)));
 }
