@@ -9,7 +9,7 @@ import pytest
 from polyskel_lite import explore
 from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
 
-from .accessibility import STRUCTURE, findings
+from .accessibility import COLOURS, STRUCTURE, findings
 from .conftest import ROOT, pages
 
 CHAPTERS = [name for name in pages() if re.match(r"\d|A_|B_|index|explore", name)]
@@ -172,6 +172,7 @@ def test_what_a_question_locks(opened):
     for number in (2, 1):
         assert_locked(page)
         page.locator(f"#predict-{number}").get_by_role("button", name="Open without one").click()
+        assert (focused(page) == "Answer") is (number == 2)  # no control is in reach yet
     assert_locked(page, False)
     for name in ("none", "elsewhere"):
         page = opened(name).page
@@ -275,6 +276,15 @@ def test_the_module_is_small():
 
 
 # --- in the book --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "part"), [("index", ".psl-viewer"), ("02_2_graphs", ".psl-toy")])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_is_locked_can_be_read(visit, book, name, part, scheme):
+    found = visit(book.as_uri(), f"{name}.html", color_scheme=scheme)
+    found.page.locator(part).first.scroll_into_view_if_needed()
+    found.page.locator(f"{part} .psl-locked + :is(.psl-controls, .psl-knobs)").first.wait_for()
+    assert findings(found.page, COLOURS, part) == []
 
 
 def test_a_viewer_of_the_book(visit, book):

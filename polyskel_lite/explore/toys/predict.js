@@ -125,7 +125,8 @@ function ask(asked) {
       summary.textContent = "Verdict";
       folded.querySelector("p").prepend(make("strong", {}, verdict), " ");
     }
-    (picture?.querySelector(CONTROL) ?? summary).focus({ preventScroll: true });
+    const control = picture && !picture.dataset.locked && picture.querySelector(CONTROL);
+    (control || summary).focus({ preventScroll: true });
   };
   button.addEventListener("click", () => {
     const chosen = place ? mark?.moved : set.querySelector("input:checked");
