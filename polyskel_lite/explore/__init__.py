@@ -8,7 +8,7 @@ Examples
 >>> import polyskel_lite as psl
 >>> from polyskel_lite import explore
 >>> picture = explore.viewer(psl.datasets.load("lake"), alt="A lake and its skeleton.")
->>> picture.counts()["branches"] > picture.counts(6.28)["branches"]
+>>> picture.counts(0)["branches"] > picture.counts(6.28)["branches"]
 True
 """
 

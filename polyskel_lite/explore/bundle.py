@@ -46,7 +46,9 @@ def page_module(toys: Iterable[str] = ()) -> str:
     """
     names = sorted(toys)
     written = {file: file.read_text(encoding="utf-8") for file in sorted(TOYS.glob("*.js"))}
-    homes = {name: file.name for name in names for file in written if f"export class {name} " in written[file]}
+    homes = {
+        name: file.name for name in names for file in written if f"export class {name} " in written[file]
+    }
     lines = [f'import {{ {name} }} from "./{homes[name]}";\n' for name in names]
     main = f'import {{ start }} from "./page.js";\n{"".join(lines)}\nstart({{ {", ".join(names)} }});\n'
     return _INDENT.sub("", _COMMENT.sub("", _joined(TOYS / "main.js", main)))

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 import polyskel_lite as psl
-from polyskel_lite import explore
+from polyskel_lite import explore, figures
 from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
+from polyskel_lite.simplification import try_removal
 
 from .accessibility import STRUCTURE, findings
 from .conftest import ROOT, pages
 
+HORSE = psl.datasets.load("horse")
 LAKE = psl.datasets.load("lake")
 MAKERS = {
     "graphs": lambda: explore.graphs(),
@@ -309,3 +311,65 @@ def test_words_of_the_text_follow_and_move_an_explorer(visit, folder):
     found.assert_quiet()
     plain = visit(folder.as_uri(), "tied.html", java_script_enabled=False)
     assert "With 50 samples the covering radius is 0.0445" in " ".join(plain.page.inner_text("main").split())
+
+
+# What the text after an explorer says was seen: chapter, the words of its button, and what the line then says.
+SEEN = [
+    ("02_1_shapes", "n = 100", "covering radius 0.02226 "),
+    ("02_1_shapes", "n = 200", "covering radius 0.01113 "),
+    ("02_1_shapes", "n = 200", "ends 17 · Betti numbers of Sk2 (1, 0)"),
+    ("02_1_shapes", "0.2 % at n = 200", "ends 27 "),
+    ("03_2_convergence", "7 ends", "n 50 · "),
+    ("03_2_convergence", "7 ends", "ends 7 "),
+    ("03_2_convergence", "25 ends", "ends 25 "),
+    ("03_2_convergence", "72 ends", "ends 72 "),
+    ("03_2_convergence", "Without noise", "ends 4 "),
+    ("03_5_comparison", "nine steps", "Step 9 of 9: 95 samples, all 95 sides are in the Gabriel graph"),
+    ("03_four_methods", "with 104 samples", "Sk2: 113 vertices, 112 edges, Betti (1, 0)"),
+    ("03_four_methods", "n = 200", "Sk0: none, 1 side is not Delaunay"),
+    ("04_2_homotopy", "33 of 60 removals", "33 of 33 triangles are gone. No hat is left"),
+]
+
+
+@pytest.mark.parametrize("name", sorted({name for name, *_ in SEEN}))
+def test_what_was_seen_is_what_the_explorer_says(visit, book, name):
+    found = visit(book.as_uri(), f"{name}.html")
+    page, toy = found.page, found.page.locator(".psl-toy").last
+    toy.scroll_into_view_if_needed()
+    toy.locator("xpath=self::*[@data-ready='true']").wait_for()
+    page.evaluate(
+        "document.querySelectorAll('[data-locked]').forEach(({ dataset }) => delete dataset.locked)"
+    )
+    for _, words, said in [row for row in SEEN if row[0] == name]:
+        page.locator(".psl-state").get_by_role("button", name=words, exact=True).click()
+        assert said in toy.locator(".psl-text").inner_text() + " ", words
+    found.assert_quiet()
+
+
+def test_numbers_that_were_seen_one_after_the_other():
+    explorer = explore.refinement(psl.datasets.load("horse", n=40))
+    assert explorer.numbers["missing_per_step"] == [11, 10, 7, 4, 4, 4, 2, 2, 2, 0]
+    smooth = explore.sampling(figures.regular_shape())
+    for n, ends in ((50, 3), (100, 3), (200, 4)):
+        smooth.controls["n"].value = n
+        assert smooth.numbers["ends"] == ends
+    four = explore.four_methods(HORSE)
+    for n in range(20, 111):
+        four.controls["n"].value = n
+        assert min(four.numbers[name]["betti"][0] for name in ("Sk2", "Sk3")) > 1, n
+        assert four.numbers["Sk0"] is None or four.numbers["Sk0"]["betti"] == (1, 0)
+    removals = explore.removals(psl.datasets.load("gear", n=60))
+    removals.controls["step"].value = 33
+    assert removals.numbers["left"] == 27
+    assert kinds(removals) == {(2, (1, 0))}
+    removals.controls["step"].value = 0
+    assert {(2, (2, 1)), (2, (1, 0)), (3, (2, 0))} <= kinds(removals)
+
+
+def kinds(removals) -> set[tuple[int, tuple[int, int]]]:
+    """Of every triangle that is left: with how many it shares a side, and the Betti numbers without it."""
+    tries = [
+        try_removal(removals.hierarchy, removals.controls["step"].value, int(row))
+        for row in removals.hierarchy.simplices
+    ]
+    return {(found.shared, found.after) for found in tries if found}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import ipywidgets
 import numpy as np
 
@@ -20,7 +22,7 @@ EDGE = 1e-6
 class MaximalBall(Explorer):
     """See `maximal_ball`."""
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "alt": "A shape, a ball of radius {radius} in it that touches the boundary in {contacts} points.",
         "alt_with_trace": "A shape, a ball of radius {radius} in it that touches the boundary in {contacts} "
         "points, and {kept} centres of maximal balls.",
@@ -30,7 +32,12 @@ class MaximalBall(Explorer):
         "grown": "Grown until it is maximal: the centre has moved onto the skeleton.",
         "growing": "Not maximal: a larger ball in the shape holds this one.",
     }
-    live = {"ball": "circles", "contacts": "points", "way": "lines", "trace": "points"}
+    live: ClassVar[dict[str, str]] = {
+        "ball": "circles",
+        "contacts": "points",
+        "way": "lines",
+        "trace": "points",
+    }
 
     def __init__(self, shape: Shape | None = None, center=None):
         self.shape = flat_shape(shape, "maximal balls")

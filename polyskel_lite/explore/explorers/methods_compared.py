@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...containment import delaunay_shape
@@ -18,14 +20,15 @@ _NAMES = ("sk1", "sk2", "sk3", "sk0")  # in the order of the sections
 class FourMethods(Explorer):
     """See `four_methods`."""
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "alt": "Four pictures of a shape with {n} samples and a skeleton: {all}.",
         "line": "Shape: Betti {betti}. {all}",
         "crosses": "{name}: none, the polygon through the samples crosses itself",
+        "missing_1": "{name}: none, 1 side is not Delaunay",
         "missing": "{name}: none, {missing} sides are not Delaunay",
         "counts": "{name}: {vertices} vertices, {edges} edges, Betti {betti}",
     }
-    live = {name: "points" if name == "sk1" else "lines" for name in _NAMES} | {
+    live: ClassVar[dict[str, str]] = {name: "points" if name == "sk1" else "lines" for name in _NAMES} | {
         **{f"heading_{name}": "text" for name in _NAMES},
         **{"samples": "points", "missing": "lines"},
     }
@@ -98,8 +101,9 @@ class FourMethods(Explorer):
         """Draw one skeleton in its own picture, and say its numbers."""
         if isinstance(skeleton, PolyskelError):
             self.board.draw(name, name, label=f"Sk_{name[2]}")
-            why = self.words["missing" if len(self._missing) else "crosses"]
-            return why.format(name=title, missing=len(self._missing))
+            count = len(self._missing)
+            why = {0: "crosses", 1: "missing_1"}.get(count, "missing")
+            return self.words[why].format(name=title, missing=count)
         lines, label = skeleton.segments() + self.offsets[name], f"Sk_{name[2]}"
         points = skeleton.vertices + self.offsets[name] if name == "sk1" else ()
         self.board.draw(name, name, lines=lines, points=points, label=label)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import ipywidgets
 import numpy as np
 
@@ -73,14 +75,14 @@ class Balls(Explorer):
         As it is now.
     """
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "full": f"{MOST} balls are as many as can be moved by hand; remove one first.",
         "last": "One ball has to stay.",
         "ball": "ball {i}",
         "centre": "centre of ball {i}",
         "rim": "rim of ball {i}",
     }
-    live = {
+    live: ClassVar[dict[str, str]] = {
         **{"spokes": "lines", "balls": "circles", "rims": "circles", "boundary": "lines"},
         **{"voronoi": "lines", "singular": "points", "skeleton": "lines"},
     }

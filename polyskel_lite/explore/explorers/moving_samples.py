@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import ipywidgets
 import numpy as np
 
@@ -23,14 +25,15 @@ START = (
 class Graphs(Explorer):
     """See `graphs`."""
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "alt": "{n} dots; graphs: {graphs}.",
-        "alt_with_ball": "{n} dots; graphs: {graphs}; the empty disc through the corners of triangle {number}.",
+        "alt_with_ball": "{n} dots; graphs: {graphs}; the empty disc through the corners of triangle "
+        "{number}.",
         "none": "none",
         "lost": "Samples {rest} and {last} are no triangle any more: a sample came into their ball.",
         "in_line": "The samples are on one line, or two at one place: there is no triangle.",
     }
-    live = {name: "lines" for name in _WORDS} | {"ball": "circles", "center": "points"}
+    live: ClassVar[dict[str, str]] = dict.fromkeys(_WORDS, "lines") | {"ball": "circles", "center": "points"}
 
     def __init__(self, points=START):
         points = as_points(points, dimensions=(2,))

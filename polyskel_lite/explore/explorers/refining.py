@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import ipywidgets
 import numpy as np
@@ -69,7 +69,7 @@ class Refinement(Explorer):
         All rounds for the graph chosen.
     """
 
-    live = {
+    live: ClassVar[dict[str, str]] = {
         **{"balls": "circles", "there": "lines", "missing": "lines"},
         **{"samples": "points", "added": "points", "intruders": "points"},
     }

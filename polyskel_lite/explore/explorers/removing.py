@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import ipywidgets
 import numpy as np
 
@@ -58,7 +60,8 @@ def removal_text(h: Hierarchy, step: int, triangle: int | None, removal: Removal
     """
     said = [WORDS["gone"].format(step=step, all=len(h.order))]
     if removal is None:
-        return " ".join([*said, WORDS["no_hat" if triangle is None else "not_there"].format(triangle=triangle)])
+        why = WORDS["no_hat" if triangle is None else "not_there"]
+        return " ".join([*said, why.format(triangle=triangle)])
     facts = removal._asdict() | {"kind": WORDS[f"kind_{removal.shared}"]}
     hat = removal.shared == 1
     said.append(WORDS["may" if hat else "must"].format(**facts))
@@ -81,8 +84,8 @@ class Removals(Explorer):
     hierarchy : Hierarchy
     """
 
-    words = WORDS
-    live = {
+    words: ClassVar[dict[str, str]] = WORDS
+    live: ClassVar[dict[str, str]] = {
         **{"triangles": "polygons", "marked": "polygons", "ball": "circles"},
         **{"skeleton": "lines", "goes": "lines"},
     }

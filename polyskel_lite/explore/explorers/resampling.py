@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import ipywidgets
 import numpy as np
 
@@ -16,12 +18,12 @@ from .explorer import Explorer, flat_shape, rings_of, sample_sliders
 class Sampling(Explorer):
     """See `sampling`."""
 
-    words = {
+    words: ClassVar[dict[str, str]] = {
         "alt": "A shape, {n} samples, skeleton Sk2 of {pieces} pieces and {loops} loops.",
         "alt_with_balls": "A shape, {n} samples, skeleton Sk2 of {pieces} pieces and {loops} loops, over the "
         "union of the Delaunay balls with centres in the shape.",
     }
-    live = {"samples": "points", "skeleton": "lines", "polyball": "circles"}
+    live: ClassVar[dict[str, str]] = {"samples": "points", "skeleton": "lines", "polyball": "circles"}
 
     def __init__(self, shape: Shape | None = None, n: int = 100, seed: int = 0):
         self.shape = flat_shape(shape, "samples")

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 import ipywidgets
 
 from ..drawing_board.marks import fragment, pens, swatch
 
-if TYPE_CHECKING:
-    from ..explorers.explorer import Explorer
 
-
-def as_script(explorer: Explorer) -> str:
-    """An explorer as it is now: a script element with all that a page needs to go on from here.
+def as_script(explorer: ipywidgets.VBox) -> str:
+    """An `Explorer` as it is now: a script element with all that a page needs to go on from here.
 
     Examples
     --------
     >>> from polyskel_lite.explore import graphs
-    >>> as_script(graphs())[:58]
-    '<script type="application/json">{"toy":"Graphs","look":"Mov'
+    >>> as_script(graphs())[:48]
+    '<script type="application/json">{"toy":"Graphs",'
     """
     board, live = explorer.board, explorer.live
-    state = board.get_state(["_view", "_layers", "handles", "handle_labels", "step", "alt", "text", "_legend"])
+    traits = ["_view", "_layers", "handles", "handle_labels", "step", "alt", "text", "_legend"]
+    state = board.get_state(traits)
     still = {name: layer for name, layer in board.layers.items() if name not in live}
     told = {
         "toy": type(explorer).__name__,

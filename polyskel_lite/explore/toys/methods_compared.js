@@ -14,7 +14,7 @@ export class FourMethods extends Toy {
     const said = Object.keys(offsets).map((name) => {
       const { lines = [], points = [], missing, counts } = found[name], at = shifted(name);
       this.draw(name, { lines: lines.map((line) => line.map(at)), points: points.map(at) });
-      const sentence = counts ? "counts" : missing ? "missing" : "crosses";
+      const sentence = counts ? "counts" : !missing ? "crosses" : missing === 1 ? "missing_1" : "missing";
       const words = fill(this.words[sentence], { name: `Sk${name[2]}`, missing, ...counts });
       this.draw(`heading_${name}`, { text: [[...at(heading), words]] });
       return words;
