@@ -39,7 +39,7 @@ BESIDE = (
     "LICENSE*",
 )
 ROLE = re.compile(r"\{([a-z:]+)\}`([^`]+)`")
-DIRECTIVE = re.compile(r"^(`{3,})\{([a-z:-]+)\} *(.*)\n((?:.*\n)*?)\1 *$", re.M)
+DIRECTIVE = re.compile(r"^(`{3,}|:{3,})\{([a-z:-]+)\} *(.*)\n((?:.*\n)*?)\1 *$", re.M)
 WORDS = {"figure": "Figure", "table": "Table", "code-block": "Listing", "displaymath": ""}
 INSTALL = """\
 # Does nothing where the library is installed.
@@ -158,6 +158,8 @@ class Chapter:
             return "@@references@@"
         if kind == "literalinclude":
             return f"[{title}]({title})"
+        if kind == "predict":
+            return question(title, body)
         if kind == "dropdown":
             return folded(title, body)
         if kind == "solution":
@@ -230,6 +232,16 @@ def markdown(name: str, text: str) -> dict:
 
 def folded(title: str, body: str) -> str:
     return f"<details><summary>{title}</summary>\n\n{body}\n\n</details>"
+
+
+def question(title: str, body: str) -> str:
+    """A question before a picture: its options as a list, the right ones and the verdict folded."""
+    choices, _, verdict = body.partition("\n\n") if body.startswith("- [") else ("", "", body)
+    right = [f"**{one}**" for one in re.findall(r"^- \[x\] (.*(?:\n  .*)*)", choices, re.M)]
+    listed = re.sub(r"^- \[[ x]\]", "-", choices, flags=re.M)
+    return "\n\n".join(
+        filter(None, [f"**{title}**", listed, folded("Answer", "\n\n".join([*right, verdict]))])
+    )
 
 
 def copies(doctrees: Path) -> dict[str, str]:

@@ -57,6 +57,84 @@ def test_holes_of_the_polyball():
     assert_said("03_2_polyballs", f"$b_1 = {betti[100][1]}$. With 200 they are gone")
 
 
+def test_where_the_polyball_of_the_horse_has_holes():
+    X = psl.datasets.load("horse")
+    holes = {n: psl.sk2(X, X.sample(n)).balls().skeleton().betti()[1] for n in (25, 50, 100, 200)}
+    assert holes == {25: 0, 50: 0, 100: 4, 200: 0}
+    assert_said(
+        "03_2_polyballs",
+        "- [x] yes, with 100 samples, and neither with 50 nor with 200",
+        "With 25, 50 and 200",
+    )
+
+
+def test_largest_ball_of_the_horse():
+    X = psl.datasets.load("horse")
+    skeleton = psl.sk2(X, X.sample(2000))
+    k = skeleton.radii.argmax()
+    (x, y), radius = skeleton.vertices[k], X.boundary_distance(skeleton.vertices[[k]])[0]
+    assert_said(
+        "01_introduction",
+        f":place: {x:.3f} {y:.3f} 0.04",
+        f"at $({x:.3f}, {y:.3f})$, with radius {radius:.3f}",
+    )
+    away = np.hypot(*(skeleton.vertices - skeleton.vertices[k]).T)
+    assert skeleton.radii[away > 0.06].max() < 0.95 * radius  # so a mark that is far off is wrong
+
+
+def test_samples_that_join_the_two_methods():
+    P = psl.datasets.load("leaf").resample(70, 0.5)
+    done = psl.conform(P)
+    assert (psl.sk2(P).betti()[0], psl.sk2(done).betti()[0]) == (2, 1)
+    added = done.points[len(P.points) :]
+    in_stalk = (added[:, 0] > -0.02).sum()  # the blade is to the left
+    assert in_stalk > 0.75 * len(added)
+    assert_said("03_5_comparison", f"- [x] {len(added)} - [ ] 70", f"With {len(done.points)} samples")
+
+
+def test_sizes_without_computing():
+    wave = 1 + 0.1 * np.cos(5 * np.linspace(0, 2 * np.pi, 1000, endpoint=False))
+    angle = np.linspace(0, 2 * np.pi, 1000, endpoint=False)
+    ring = np.column_stack([wave * np.cos(angle), wave * np.sin(angle)])
+    assert len(psl.sk0(psl.Shape.from_rings([ring])).vertices) == 998
+    lake = psl.conform(psl.datasets.load("lake", n=100), to="delaunay")
+    skeleton = psl.sk0(lake)
+    assert_said(
+        "03_6_complexity",
+        "- [x] 998",
+        f"for {len(lake.points)} samples?",
+        f"- [x] {len(skeleton.vertices)} and {len(skeleton.edges)}",
+    )
+
+
+def test_lens_of_three_disks_in_a_row():
+    rim = psl.Polyball([(0, 0), (0.7, 0)], [1, 1]).singular_points()
+    x, y = np.abs(rim).max(axis=0)
+    away = np.hypot(1.4 - x, y)
+    assert_said("A_1_polyballs", f"above and below {x:.2f}, at height {y:.2f}, and so {away:.2f} away")
+
+
+def test_lengths_in_molecules():
+    assert 2 * 1.160 < 2 * 1.52
+    assert_said("A_3_theorem_4", f"nuclei are {2 * 1.160:.2f} Å apart", f"part at ${1.3914 / 1.70 / 2:.2f}$")
+
+
+def test_polygons_that_only_the_exact_skeleton_has():
+    more = []
+    for n in (150, 300):
+        X = psl.implicit.solid(psl.implicit.torus(), n=n)
+        more.append(len(psl.delaunay_balls(X).skeleton().polygons) - len(psl.sk2(X).polygons))
+    assert more == [319, 636]
+    assert_said("A_4_back_to_sk2", "- [x] no: there are more such polygons with 300 samples")
+
+
+def test_a_ball_too_large_for_its_room():
+    plan = [[(0, 0), (100, 0), (100, 10), (60, 10), (60, 60), (40, 60), (40, 10), (0, 10)]]
+    with pytest.warns(psl.CoarseSamplingWarning, match="is 32.02 times as large"):
+        psl.skeleton(plan, densify=False)
+    assert_said("explore", "a ball is 32 times as large as the room around its centre")
+
+
 def test_refinement_of_the_horse():
     P = psl.datasets.load("horse", n=40)
     steps = explore.refinement(P).numbers["missing_per_step"]

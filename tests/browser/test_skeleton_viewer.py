@@ -513,6 +513,8 @@ def test_three_still_pictures_without_javascript(visit, folder):
 @pytest.mark.parametrize("name", CHAPTERS)
 def test_the_viewers_of_a_chapter(visit, book, name):
     opened = visit(book.as_uri(), f"{name}.html")
+    for button in opened.page.get_by_role("button", name="Open without one").all()[::-1]:
+        button.click()
     for root in opened.page.locator(".psl-viewer").all():
         whole = int(root.get_attribute("data-vertices"))
         for slider in root.locator("[data-control=threshold]").all():

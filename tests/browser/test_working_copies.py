@@ -30,6 +30,14 @@ def test_no_role_and_no_directive_is_left(copies, name):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
+def test_a_question_is_a_list_and_a_folded_answer(copies, name):
+    source = text(json.loads((ROOT / "notebooks" / name).read_text(encoding="utf-8")))
+    asked = re.findall(r"^:::\{predict\} ", source, re.M)
+    options = r"^\*\*.*\?\*?\*\*\n\n(?:(?:- (?!\[).*\n)+\n)?<details><summary>Answer</summary>\n\n(?!<)"
+    assert len(re.findall(options, text(json.loads(copies[name])), re.M)) == len(asked)
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
 def test_numbers_are_those_of_the_page(book, copies, name):
     page = (book / name.replace(".ipynb", ".html")).read_text(encoding="utf-8")
     there = re.findall(rf'<span class="caption-number">({NUMBERED}) ?', page)

@@ -3,6 +3,7 @@
 import { render } from "../drawing_board/board.js";
 import { make, whenNear } from "../skeleton_viewer/dom.js";
 import { panel } from "./knobs.js";
+import { predictions } from "./predict.js";
 import { said } from "./toy.js";
 
 /** Words of the text that are tied to the explorer above them, or to the first one: see notebooks/states.py. */
@@ -49,5 +50,6 @@ function mount(root, toy) {
 
 /** `toys` are the explorers of this page by name. */
 export function start(toys) {
+  predictions();
   whenNear(document.querySelectorAll(".psl-toy"), (root, told) => mount(root, new toys[told.toy](told)));
 }
