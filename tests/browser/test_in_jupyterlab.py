@@ -30,11 +30,11 @@ TOKEN = secrets.token_hex(16)
 STARTS = 90  # seconds in which the server must answer
 # No question about news, and none to the package index about a newer version.
 SETTINGS = {"apputils-extension/notification": {"checkForUpdates": False, "fetchNews": "false"}}
-# `make lab` does not install it, but older environments have it: the mark that a solution opens is lost by it.
+# `make lab` does not install it, older environments have it: it loses the mark that a solution opens.
 DISABLED = {"disabledExtensions": {"jupyterlab-myst": True}}
 # All that the console may say, and why.
 KNOWN = {
-    "@jupyterlite/": "The kernel of the browser site, which tests install beside JupyterLab, needs that site.",
+    "@jupyterlite/": "The kernel of the browser site, which tests install as well, needs that site.",
 }
 
 
@@ -62,7 +62,7 @@ def lab(browser, tmp_path_factory) -> Iterator[Lab]:
         file = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
         file.parent.mkdir(parents=True)
         file.write_text(json.dumps(settings), encoding="utf-8")
-    disabled = home / "config" / "labconfig" / "page_config.json"  # where `jupyter labextension disable` writes
+    disabled = home / "config" / "labconfig" / "page_config.json"  # of labextension disable
     disabled.parent.mkdir(parents=True)
     disabled.write_text(json.dumps(DISABLED), encoding="utf-8")
     places = {
