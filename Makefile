@@ -8,6 +8,9 @@ COUNT  ?= 10000
 SEED   ?= 0
 LOCKED := --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate -q
 FIRST  := notebooks/01_introduction.ipynb
+# What the pages are made of or link to; nothing is built again while all of it is older than the last build.
+PARTS  := book.toml Makefile notebooks polyskel_lite tools tests benchmarks $(VENV)/.book
+BUILT  := _build/html/.built
 
 .DEFAULT_GOAL := help
 .PHONY: help book test lint unit chapters browser lab lite figures bench fuzz run lock clean
@@ -24,9 +27,11 @@ $(LOCKS): $(VENV)/.%: requirements/%.lock
 	@"$(PYTHON)" tools/environment.py $*
 
 book: $(VENV)/.book  ## build the HTML book from book.toml and notebooks/
-	@echo "Building the book (about half a minute the first time) ..."
-	@$(BIN)/python -m sphinx -W --keep-going -q -b html -d _build/doctrees notebooks _build/html
-	@$(BIN)/python tools/check_offline.py _build/html
+	@mkdir -p _build
+	@test -e $(BUILT) && test -z "$$(find $(PARTS) -name __pycache__ -prune -o -newer $(BUILT) -print -quit)" || { \
+	  echo "Building the book (about half a minute the first time) ..." && touch _build/.begun && \
+	  $(BIN)/python -m sphinx -W --keep-going -q -b html -d _build/doctrees notebooks _build/html && \
+	  $(BIN)/python tools/check_offline.py _build/html && mv _build/.begun $(BUILT); }
 	@git diff --quiet HEAD -- notebooks/*.ipynb 2>/dev/null || echo "Note: these chapters differ from what is committed:" \
 	  "$$(git diff --name-only HEAD -- notebooks/*.ipynb 2>/dev/null | tr '\n' ' ')"
 	@echo "The book is ready. Open $(CURDIR)/_build/html/index.html"
