@@ -60,7 +60,7 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
 	@$(BIN)/python tools/working_copies.py _build/lab
 	@$(BIN)/jupyter trust _build/lab/notebooks/*.ipynb >/dev/null # or pictures of lines are not shown
-	$(BIN)/jupyter lab _build/lab/$(FIRST)
+	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root) _build/lab/$(FIRST) # root: a container, as a rule
 
 lite: book $(VENV)/.lite  ## build a site in which the chapters run in the browser, nothing to install
 	@echo "Building the browser site (about ten seconds) ..."
