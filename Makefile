@@ -11,6 +11,7 @@ FIRST  := notebooks/01_introduction.ipynb
 # What the pages are made of or link to; nothing is built again while all of it is older than the last build.
 PARTS  := book.toml Makefile notebooks polyskel_lite tools tests benchmarks $(VENV)/.book
 BUILT  := _build/html/.built
+AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root) # in a container, as a rule
 
 .DEFAULT_GOAL := help
 .PHONY: help book test lint unit chapters browser lab lite figures bench fuzz run lock clean
@@ -60,7 +61,7 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
 	@$(BIN)/python tools/working_copies.py _build/lab
 	@$(BIN)/jupyter trust _build/lab/notebooks/*.ipynb >/dev/null # or pictures of lines are not shown
-	$(BIN)/jupyter lab $(if $(filter 0,$(shell id -u)),--allow-root) _build/lab/$(FIRST) # root: a container, as a rule
+	$(BIN)/jupyter lab $(AS_ROOT) --ServerApp.root_dir=_build/lab _build/lab/$(FIRST)
 
 lite: book $(VENV)/.lite  ## build a site in which the chapters run in the browser, nothing to install
 	@echo "Building the browser site (about ten seconds) ..."
