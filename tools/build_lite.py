@@ -91,7 +91,11 @@ def browser_copy(notebook: nbformat.NotebookNode, stem: str, absent: set[str]) -
     missing = MISSING.get(stem, SLOW if "hierarchy(" in code else "")
     install = "%pip install -q " + " ".join(name for name in requirements(code) if name not in absent)
     for module, package in OTHERS.items():
-        if package in absent and imports(code, module):
+        if not imports(code, module):
+            continue
+        missing += f" This chapter takes {package} as well."
+        if package in absent:
+            missing += " It is not in this site, so the cells that need it are left out."
             install += LEFT_OUT
             for number in needing(module, [cell.source for cell in cells]):
                 cells[number].source = f"%%left_out {package}\n{cells[number].source}"
