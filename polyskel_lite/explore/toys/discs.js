@@ -1,7 +1,7 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
 // Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
 
-import { bettiOf, between, circumballs, delaunay, distanceTo, extentOf, facetTable } from "./plane.js";
+import { bettiOf, between, circumballs, delaunay, distanceTo, edgeKey, extentOf, facetTable } from "./plane.js";
 
 const TURN = 2 * Math.PI;
 // As in polyballs.pairs: what rounding may change, what a ball is believed to, which points are on a circle.
@@ -185,7 +185,8 @@ export function disconnected(balls, kept) {
 }
 
 /** Pairs of generating discs that cross on the boundary and whose common part meets no third one (definition 3). */
-export function quasiDisconnected(balls, kept, through) {
+export function quasiDisconnected(balls, kept, { rows, singular }) {
+  const { through } = gathered(balls, rows, singular);
   return pairsOf(kept).filter(([i, j]) => through.filter((on) => on.includes(i) && on.includes(j)).length > 1)
     .filter(([i, j]) => kept.every((k) => k === i || k === j ||
       distanceToLens(balls[k].c, balls[i], balls[j]) > balls[k].r * (1 + PRECISION)));
@@ -233,19 +234,10 @@ function neighbourhood(points) {
   return { balls: [], simplices: [], rows: order.slice(1).map((b, k) => [order[k], b, []]) };
 }
 
-/**
- * The union and its exact skeleton: `segments` and `dots` (its vertices), Betti numbers, how many discs are `needed`,
- * `disconnected`, and pairs `quasiDisconnected`. Where the library raises an error, `refused` says why.
- */
-export function ballSkeleton(balls) {
-  const boundary = union(balls), { singular, through } = gathered(balls, boundary.rows, boundary.singular);
-  const kept = generating(balls, boundary), exposed = new Set(boundary.arcs.map(([i]) => i));
-  const numbers = {
-    ...boundary, needed: kept.length, disconnected: disconnected(balls, kept).length,
-    quasiDisconnected: quasiDisconnected(balls, kept, through).length,
-  };
-  if (boundary.touching.length) return { ...numbers, segments: [], dots: [], betti: null, refused: "tangent" };
-  const places = balls.map(({ c }) => c), sizes = balls.map(({ r }) => r), graph = neighbourhood(singular);
+/** The exact skeleton of a union: its vertices, and its edges as pairs of them. */
+function skeletonOf(balls, { rows, arcs, singular: corners }) {
+  const { singular, through } = gathered(balls, rows, corners), graph = neighbourhood(singular);
+  const exposed = [...new Set(arcs.map(([i]) => i))], places = balls.map(({ c }) => c), sizes = balls.map(({ r }) => r);
   const labels = graph.simplices.map((corners, k) => {
     const common = through[corners[0]].filter((i) => corners.every((v) => through[v].includes(i)));
     if (common.length) return common[0];
@@ -260,16 +252,30 @@ export function ballSkeleton(balls) {
   const edges = new Map();
   for (const [a, b, sides] of graph.rows) {
     const across = minus(singular[b], singular[a]), way = [-across[1], across[0]];
-    const discs = through[a].filter((i) => exposed.has(i) && through[b].includes(i));
+    const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
     ends.sort((u, v) => inner(way, places[u]) - inner(way, places[v]));
-    ends.slice(1).forEach((v, k) => {
-      const u = ends[k];
-      edges.set(u < v ? `${u} ${v}` : `${v} ${u}`, [u, v]);
-    });
+    ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
-  const used = [...new Set([...exposed, ...[...edges.values()].flat()])], number = new Map(used.map((v, k) => [v, k]));
-  const numbered = [...edges.values()].map((edge) => edge.map((v) => number.get(v)));
-  const segments = [...edges.values()].map((edge) => edge.map((v) => places[v]));
-  return { ...numbers, segments, dots: used.map((v) => places[v]), betti: bettiOf(used.length, numbered) };
+  const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
+  return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
+}
+
+/**
+ * The union and its exact skeleton: `segments` and `dots` (its vertices), Betti numbers; how many discs are `needed`
+ * and `disconnected`, how many pairs `quasiDisconnected`. Where the library raises an error, `refused` says why.
+ */
+export function ballSkeleton(balls) {
+  const boundary = union(balls), kept = generating(balls, boundary);
+  const found = {
+    ...boundary, needed: kept.length, disconnected: disconnected(balls, kept).length,
+    quasiDisconnected: quasiDisconnected(balls, kept, boundary).length,
+  };
+  const none = { ...found, segments: [], dots: [], betti: null };
+  if (boundary.touching.length) return { ...none, refused: "tangent" };
+  const { dots, edges } = skeletonOf(balls, boundary), betti = bettiOf(dots.length, edges);
+  // Discs may miss each other by no more than rounding: the skeleton must be like that of slightly larger ones.
+  const grown = balls.map(({ c, r }) => ({ c, r: r * Math.sqrt(1 + ON) })), other = skeletonOf(grown, union(grown));
+  if (bettiOf(other.dots.length, other.edges).some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
+  return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
 }

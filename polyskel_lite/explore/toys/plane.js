@@ -6,7 +6,7 @@
 
 import { UNIT, orientation, inBall, inGabrielBall, locate, Rational } from "./signs.js";
 
-const edgeKey = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
+export const edgeKey = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
 export const distanceTo = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
 export const between = ([ax, ay], [bx, by], t) => [ax + t * (bx - ax), ay + t * (by - ay)];
 
