@@ -1,7 +1,8 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
 // Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
 
-import { bettiOf, between, circumballs, delaunay, distanceTo, edgeKey, extentOf, facetTable } from "./plane.js";
+import { bettiOf, circumballs, delaunay, edgeKey, facetTable } from "./plane.js";
+import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
 
 const TURN = 2 * Math.PI;
 // As in polyballs.pairs: what rounding may change, what a ball is believed to, which points are on a circle.
@@ -12,9 +13,7 @@ const SAME = 1e-9, CONE = 1e-9;
 const rounding = (...balls) => ROUNDING * balls.reduce((sum, { c, r }) => sum + extentOf([c]) + r, 0);
 const believed = (a, b) => PRECISION * Math.min(a.r, b.r) + rounding(a, b);
 const gap = (a, b) => distanceTo(a.c, b.c) - a.r - b.r;
-const minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
-const inner = (u, v) => u[0] * v[0] + u[1] * v[1];
-const outer = (u, v) => u[0] * v[1] - u[1] * v[0];
+const cross = (u, v) => u[0] * v[1] - u[1] * v[0];
 const unitOf = (v) => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v)];
 const onCircle = ({ c, r }, angle) => [c[0] + r * Math.cos(angle), c[1] + r * Math.sin(angle)];
 const pairsOf = (list) => list.flatMap((a, k) => list.slice(k + 1).map((b) => [a, b]));
@@ -94,7 +93,7 @@ function contact(balls, rows, i, j) {
     if (out <= error) through.push(unitOf(minus(ball.c, p)));
   }
   // Only the common tangent is free; a step along it leaves the discs that are not ahead.
-  const [x, y] = unitOf(minus(b.c, p)), free = (way) => through.every((toward) => inner(way, toward) <= 1e-9);
+  const [x, y] = unitOf(minus(b.c, p)), free = (way) => through.every((toward) => dot(way, toward) <= 1e-9);
   return through.length < 3 || free([-y, x]) || free([y, -x]) ? p : null;
 }
 
@@ -145,8 +144,8 @@ function hidden(balls, rows, i) {
   let cell = [[-far, -far], [far, -far], [far, far], [-far, far]];
   for (const j of rows) {
     if (j === i) continue;
-    const way = minus(balls[j].c, c), half = (inner(way, way) + r * r - balls[j].r ** 2) / 2;
-    const room = cell.map((p) => half - inner(way, p)), { length } = cell;
+    const way = minus(balls[j].c, c), half = (dot(way, way) + r * r - balls[j].r ** 2) / 2;
+    const room = cell.map((p) => half - dot(way, p)), { length } = cell;
     cell = cell.flatMap((p, k) => {
       const next = (k + 1) % length, kept = room[k] >= 0 ? [p] : [];
       if (room[k] >= 0 === room[next] >= 0) return kept;
@@ -218,10 +217,10 @@ function gathered(balls, rows, corners) {
 /** Whether a vector is a positive combination of others, or nearly. */
 function inCone(vector, ways) {
   const v = unitOf(vector), units = ways.map(unitOf);
-  const along = (u) => inner(u, v) >= 0 && Math.abs(outer(u, v)) <= CONE;
+  const along = (u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE;
   const among = (u, w) => {
-    const d = outer(u, w);
-    return Math.abs(d) > PRECISION && outer(v, w) / d >= 0 && outer(u, v) / d >= 0;
+    const d = cross(u, w);
+    return Math.abs(d) > PRECISION && cross(v, w) / d >= 0 && cross(u, v) / d >= 0;
   };
   return units.some(along) || pairsOf(units).some(([u, w]) => among(u, w));
 }
@@ -235,8 +234,8 @@ function neighbourhood(points) {
 }
 
 /** The exact skeleton of a union: its vertices, and its edges as pairs of them. */
-function skeletonOf(balls, { rows, arcs, singular: corners }) {
-  const { singular, through } = gathered(balls, rows, corners), graph = neighbourhood(singular);
+function skeletonOf(balls, { rows, arcs, singular: given }) {
+  const { singular, through } = gathered(balls, rows, given), graph = neighbourhood(singular);
   const exposed = [...new Set(arcs.map(([i]) => i))], places = balls.map(({ c }) => c), sizes = balls.map(({ r }) => r);
   const labels = graph.simplices.map((corners, k) => {
     const common = through[corners[0]].filter((i) => corners.every((v) => through[v].includes(i)));
@@ -254,7 +253,7 @@ function skeletonOf(balls, { rows, arcs, singular: corners }) {
     const across = minus(singular[b], singular[a]), way = [-across[1], across[0]];
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
-    ends.sort((u, v) => inner(way, places[u]) - inner(way, places[v]));
+    ends.sort((u, v) => dot(way, places[u]) - dot(way, places[v]));
     ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
   const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];

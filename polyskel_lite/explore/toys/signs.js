@@ -40,29 +40,14 @@ export function inBall(a, b, c, d) {
   return sign(lifted(px - x, py - y, qx - x, qy - y, rx - x, ry - y));
 }
 
-const dot = (ax, ay, bx, by, px, py) => (px - ax) * (px - bx) + (py - ay) * (py - by);
+const diametral = (ax, ay, bx, by, px, py) => (px - ax) * (px - bx) + (py - ay) * (py - by);
 
 /** +1 if p is inside the circle with diameter ab, 0 on it, -1 outside. */
 export function inGabrielBall(a, b, p) {
-  const value = dot(...a, ...b, ...p);
+  const value = diametral(...a, ...b, ...p);
   const size = Math.abs((p[0] - a[0]) * (p[0] - b[0])) + Math.abs((p[1] - a[1]) * (p[1] - b[1]));
   if (Math.abs(value) > 16 * UNIT * size + FLOOR) return -sign(value);
-  return -sign(dot(...asIntegers([...a, ...b, ...p])));
-}
-
-/** +1 if p is inside the closed segments, 0 on one, -1 outside: by the crossings of its ray to the right. */
-export function locate(segments, p) {
-  let inside = false;
-  for (const [a, b] of segments) {
-    if ((a[1] > p[1]) !== (b[1] > p[1])) {
-      const side = a[1] < b[1] ? orientation(a, b, p) : orientation(b, a, p);
-      if (side === 0) return 0;
-      if (side > 0) inside = !inside;
-    } else if (a[1] === p[1] && b[1] === p[1]) {
-      if (Math.min(a[0], b[0]) <= p[0] && p[0] <= Math.max(a[0], b[0])) return 0;
-    } else if ((a[0] === p[0] && a[1] === p[1]) || (b[0] === p[0] && b[1] === p[1])) return 0;
-  }
-  return inside ? 1 : -1;
+  return -sign(diametral(...asIntegers([...a, ...b, ...p])));
 }
 
 /** The quotient of two whole numbers, as a float. */
@@ -110,7 +95,7 @@ export class Rational {
       const aboveA = ay * D > Y, aboveB = by * D > Y, level = ay * D === Y || by * D === Y;
       if (aboveA === aboveB && !level) continue;
       const side = (bx - ax) * (Y - ay * D) - (by - ay) * (X - ax * D);
-      if (side === 0n && dot(ax * D, ay * D, bx * D, by * D, X, Y) <= 0n) return true;
+      if (side === 0n && diametral(ax * D, ay * D, bx * D, by * D, X, Y) <= 0n) return true;
       if (aboveA !== aboveB && (aboveB ? side > 0n : side < 0n)) inside = !inside;
     }
     return inside;
