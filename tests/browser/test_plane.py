@@ -1,7 +1,7 @@
 """The plane's geometry on pages without a kernel answers as the library does, in Chromium.
 
-The library makes random cases and its answers; the page gets those of a family at once, and what it says is compared
-here. A failure says how many cases of the family differ, in what, and which is the first.
+The library makes random cases and its answers; the page gets those of a family at once, and what it says is
+compared here. A failure says how many cases of the family differ, in what, and which is the first.
 """
 
 import json
@@ -48,10 +48,7 @@ const questions = {
     const betti = inner && bettiOf(numbers.size, edges.map((edge) => edge.map((s) => numbers.get(s))));
     return { simplices: tessellation.simplices, inner, edges, missing, betti };
   },
-  samples({ rings, n, start }) {
-    const E = sampleRings(rings, n, start);
-    return E;
-  },
+  samples: ({ rings, n, start }) => sampleRings(rings, n, start),
   crossing: ({ points, facets }) => polygonCrosses(points, facets),
   ball({ segments, place }) {
     const found = grow(segments, place);
@@ -59,14 +56,16 @@ const questions = {
   },
   discs({ centers, radii }) {
     const balls = centers.map((c, k) => ({ c, r: radii[k] })), found = ballSkeleton(balls);
-    const kept = generating(balls, found), rim = ([i, ...ends]) => ends.map((angle) => onCircle(balls[i], angle));
+    const kept = generating(balls, found);
+    const rim = ([i, ...ends]) => ends.map((angle) => onCircle(balls[i], angle));
     return {
       ...found, generating: kept, lonely: disconnected(balls, kept), length: lengthOf(found.segments),
       pairs: quasiDisconnected(balls, kept, found), rims: found.arcs.map(rim),
     };
   },
 };
-window.answers = (cases) => JSON.stringify(JSON.parse(cases).map(({ question, ...given }) => questions[question](given)));
+const answer = ({ question, ...given }) => questions[question](given);
+window.answers = (cases) => JSON.stringify(JSON.parse(cases).map(answer));
 """
 
 NAMES = ["horse", "leaf", "gear", "lake", "hawaii"]
@@ -108,7 +107,6 @@ class Graph:
         order = [mine[tuple(sorted(row))] for row in said["simplices"]]
         if not np.isfinite(t.circumcenters).all():
             return found
-        # Far from 1 squares of lengths would overflow, so the differences are taken in a unit of the errors.
         error = np.array([ball["error"] for ball in said["balls"]]) + t.circumcenter_errors[order]
         moved = np.array([ball["center"] for ball in said["balls"]], dtype=float) - t.circumcenters[order]
         grown = np.array([ball["r"] for ball in said["balls"]]) - t.circumradii[order]
@@ -122,7 +120,7 @@ class Graph:
 class Seen:
     """Sk1, Sk2, Sk3 of samples in a shape, the covering radius, and where places are."""
 
-    def __init__(self, shape, E=None, rng=None):
+    def __init__(self, shape, E=None):
         self.shape, self.E = shape, E
         points = shape.points if E is None else E
         low, high = shape.points.min(axis=0), shape.points.max(axis=0)
@@ -448,7 +446,7 @@ def crossings(rng):
 
 def maximal_balls(rng):
     for k in range(100):
-        shape = psl.datasets.load(NAMES[k % 4]) if k % 2 else tried(1, lambda: star(rng, 0.1))[0]
+        shape = psl.datasets.load(NAMES[k % 3 * 2]) if k % 2 else tried(1, lambda: star(rng, 0.1))[0]
         low, high = shape.points.min(axis=0), shape.points.max(axis=0)
         places = low + (high - low) * rng.random((200, 2))
         inside = places[
