@@ -144,6 +144,8 @@ class Seen:
         edges = corners[np.array(said["edges"], dtype=int).reshape(-1, 2)]
         mine = np.sort(t.simplices, axis=1)[twos.simplices[twos.edges]]
         drawn = np.linalg.norm(np.subtract(*threes.segments().swapaxes(0, 1)), axis=1).sum()
+        cut, ends = threes.vertices[len(twos.vertices) :], np.reshape(said["pieces"], (-1, 1, 2))
+        blur = 1e-12 * np.abs(shape.points).max()
         good = {
             "Sk1": rows(corners[inside]) == rows(t.simplices[ones.simplices]),
             "Sk2": {frozenset(map(tuple, pair)) for pair in edges.tolist()}
@@ -153,12 +155,8 @@ class Seen:
             "length of Sk3": near(said["length"], drawn) or drawn == 0 == said["length"],
             "covering radius": near(said["covering"], shape.covering_radius(t.points)),
             "located": said["located"] == shape.locate(self.queries).tolist(),
-            "distances": np.allclose(
-                said["distances"],
-                shape.boundary_distance(self.queries),
-                1e-9,
-                1e-12 * np.abs(shape.points).max(),
-            ),
+            "distances": np.allclose(said["distances"], shape.boundary_distance(self.queries), 1e-9, blur),
+            "ends of Sk3": not len(cut) or np.linalg.norm(cut - ends, axis=2).min(axis=0).max() <= blur,
         }
         return [what for what, right in good.items() if not right]
 
@@ -212,10 +210,8 @@ class Crossing:
 
     def __init__(self, shape, n, start):
         self.shape, self.n, self.start = shape, n, start
-        self.points, self.facets = (
-            shape.sample(n, start),
-            ring_facets([len(ring) for ring in shape._samples(n, start)]),
-        )
+        self.points = shape.sample(n, start)
+        self.facets = ring_facets([len(ring) for ring in shape._samples(n, start)])
         self.given = {"question": "crossing", "points": self.points.tolist(), "facets": self.facets.tolist()}
 
     def wrong(self, said):
@@ -432,6 +428,14 @@ def scaled_shapes(rng):
         yield Seen(psl.Shape(steps.points * size, steps.facets))
 
 
+def samples_on_lines(rng):
+    """Nearly on the sides of a box, so that many centres are far away."""
+    box = psl.Shape.from_rings([[(0, 0), (3, 0), (3, 2), (0, 2)]])
+    for k in range(40):
+        E = box.sample(int(rng.integers(6, 25)), k / 40)
+        yield Seen(box, E + rng.choice([1e-13, 1e-10, 1e-7, 1e-4]) * rng.standard_normal(E.shape))
+
+
 def samples(rng):
     for k in range(100):
         shape = psl.datasets.load(NAMES[k % 5])
@@ -492,6 +496,15 @@ def rings_of_discs(rng):
         yield Discs(centers, radii)
 
 
+def filled_holes(rng):
+    """Three discs around a gap, and some in the middle."""
+    outer = np.array([(1.1, 0), (-0.55, 0.9526), (-0.55, -0.9526)])
+    for _ in range(60):
+        n = int(rng.integers(1, 6))
+        centers, radii = 0.25 * rng.standard_normal((n, 2)), 0.15 + 0.4 * rng.random(n)
+        yield Discs(np.concatenate([outer, centers]), np.append(np.ones(3), radii))
+
+
 def nearly_tangent_discs(rng):
     for k in range(100):
         r = 0.3 + rng.random(3)
@@ -503,9 +516,9 @@ def nearly_tangent_discs(rng):
 
 FAMILIES = [
     *(random_points, grids, circles, near_lines, scales, no_tessellation),
-    *(stars, sampled, resampled, staircases, several_rings, scaled_shapes),
+    *(stars, sampled, resampled, staircases, several_rings, scaled_shapes, samples_on_lines),
     *(samples, crossings, maximal_balls),
-    *(random_discs, nested_discs, chains_of_discs, rings_of_discs, nearly_tangent_discs),
+    *(random_discs, nested_discs, chains_of_discs, rings_of_discs, filled_holes, nearly_tangent_discs),
 ]
 
 

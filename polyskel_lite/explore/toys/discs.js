@@ -138,23 +138,6 @@ function areaOf(balls, arcs) {
 
 // --- definitions 1 to 3 ------------------------------------------------------------------------------
 
-/** Whether no point has its least power to disc i: other discs cover all of it at once. */
-function hidden(balls, rows, i) {
-  const { c, r } = balls[i], far = 10 * Math.max(...rows.map((j) => distanceTo(c, balls[j].c) + balls[j].r));
-  let cell = [[-far, -far], [far, -far], [far, far], [-far, far]];
-  for (const j of rows) {
-    if (j === i) continue;
-    const way = minus(balls[j].c, c), half = (dot(way, way) + r * r - balls[j].r ** 2) / 2;
-    const room = cell.map((p) => half - dot(way, p)), { length } = cell;
-    cell = cell.flatMap((p, k) => {
-      const next = (k + 1) % length, kept = room[k] >= 0 ? [p] : [];
-      if (room[k] >= 0 === room[next] >= 0) return kept;
-      return [...kept, between(p, cell[next], room[k] / (room[k] - room[next]))];
-    });
-  }
-  return !cell.length;
-}
-
 /** Radius of the largest disc around a point in a union, negative if the point is not in it. */
 function roomIn(balls, p) {
   if (!balls.some(({ c, r }) => distanceTo(c, p) <= r)) return -1;
@@ -169,7 +152,7 @@ function roomIn(balls, p) {
 /** Discs that generate the union, none of which can be left out (definition 1); the smallest ones go first. */
 export function generating(balls, { rows, arcs }) {
   const exposed = new Set(arcs.map(([i]) => i));
-  let kept = rows.filter((i) => exposed.has(i) || !hidden(balls, rows, i));
+  let kept = rows;
   for (const i of kept.filter((k) => !exposed.has(k)).sort((a, b) => balls[a].r - balls[b].r)) {
     const others = kept.filter((j) => j !== i), ball = balls[i];
     if (roomIn(others.map((j) => balls[j]), ball.c) >= (1 - 1e-9) * ball.r) kept = others;
