@@ -409,7 +409,7 @@ export function grow(segments, place) {
   for (let tries = 0; tries < 100; tries += 1) {
     const { foot: next, far } = nearest(at(full)), way = minus(next, foot);
     const smaller = dot(way, way) / (2 * dot(way, away));
-    if (far >= full * (1 - 1e-9) || !(smaller > 0 && smaller < full * (1 - 1e-9))) break;
+    if (far >= full * (1 - 1e-12) || !(smaller > 0 && smaller < full)) break;
     full = smaller;
   }
   full = Math.max(radius, full);
