@@ -373,7 +373,7 @@ def stars(rng):
 def sampled(rng):
     for k in range(80):
         shape = psl.datasets.load(NAMES[k % 5])
-        E = shape.sample(int(rng.integers(20, 160)), float(rng.random()))
+        E = shape.sample(int(rng.integers(24, 160)), float(rng.random()))
         if k % 2:
             E = E + 0.004 * np.ptp(shape.points) * rng.standard_normal(E.shape)
         yield Seen(shape, E)

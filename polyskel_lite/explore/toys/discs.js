@@ -1,7 +1,7 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
 // Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
 
-import { bettiOf, circumballs, delaunay, edgeKey, facetTable } from "./plane.js";
+import { bettiOf, circumballs, delaunay, edgeKey, facetTable, groupsOf } from "./plane.js";
 import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
 
 const TURN = 2 * Math.PI;
@@ -16,6 +16,7 @@ const gap = (a, b) => distanceTo(a.c, b.c) - a.r - b.r;
 const cross = (u, v) => u[0] * v[1] - u[1] * v[0];
 const unitOf = (v) => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v)];
 const onCircle = ({ c, r }, angle) => [c[0] + r * Math.cos(angle), c[1] + r * Math.sin(angle)];
+const turned = (angle) => ((angle % TURN) + TURN) % TURN;
 const pairsOf = (list) => list.flatMap((a, k) => list.slice(k + 1).map((b) => [a, b]));
 
 /** The discs that are not equal, up to rounding, to one before them. */
@@ -51,15 +52,14 @@ function uncovered(covers) {
   const origin = covers[0].start - covers[0].error;
   // Once around, from the start of one part to it again; widened by their errors, so that no gap is mere rounding.
   const parts = covers.flatMap(({ start, width, error }, k) => {
-    const turned = (((start - origin) % TURN) + TURN) % TURN;
-    const copies = [0, ...(turned + width + error > TURN ? [-TURN] : []), ...(k ? [] : [TURN])];
-    return copies.map((shift) => ({ from: turned + shift, to: turned + width + shift, error }));
+    const from = turned(start - origin), over = from + width + error > TURN ? [-TURN] : [];
+    return [0, ...over, ...(k ? [] : [TURN])].map((t) => ({ from: from + t, to: from + width + t, error }));
   }).sort((a, b) => a.from - a.error - b.from + b.error);
   const arcs = [];
   let last = parts[0];
   for (const part of parts.slice(1)) {
     if (part.from - part.error > last.to + last.error) {
-      const start = ((((origin + last.to + Math.PI) % TURN) + TURN) % TURN) - Math.PI;
+      const start = turned(origin + last.to + Math.PI) - Math.PI;
       arcs.push({ start, end: start + part.from - last.to, errors: [last.error, part.error] });
     }
     if (part.to + part.error > last.to + last.error) last = part;
@@ -69,14 +69,10 @@ function uncovered(covers) {
 
 /** The first by `better` of each group of points linked by distances up to `reach(i, j)`. */
 function merged(points, reach, better) {
-  const root = points.map((_, k) => k);
-  const find = (k) => { while (root[k] !== k) k = root[k]; return k; };
-  for (const [i, j] of pairsOf([...points.keys()])) {
-    if (distanceTo(points[i], points[j]) <= reach(i, j)) root[find(i)] = find(j);
-  }
+  const near = ([i, j]) => distanceTo(points[i], points[j]) <= reach(i, j);
+  const groups = groupsOf(points.length, pairsOf([...points.keys()]).filter(near));
   const best = new Map();
-  points.forEach((_, k) => {
-    const group = find(k);
+  groups.forEach((group, k) => {
     if (!best.has(group) || better(k, best.get(group))) best.set(group, k);
   });
   return [...best.values()].sort((i, j) => i - j).map((k) => points[k]);
@@ -143,8 +139,7 @@ function roomIn(balls, p) {
   if (!balls.some(({ c, r }) => distanceTo(c, p) <= r)) return -1;
   return union(balls).arcs.reduce((least, [i, start, end]) => {
     const { c, r } = balls[i], [x, y] = minus(p, c), d = Math.hypot(x, y);
-    const turned = (((Math.atan2(y, x) - start) % TURN) + TURN) % TURN;
-    const near = d === 0 || turned <= end - start ? Math.abs(d - r) : Infinity;
+    const near = d === 0 || turned(Math.atan2(y, x) - start) <= end - start ? Math.abs(d - r) : Infinity;
     return Math.min(least, near, ...[start, end].map((angle) => distanceTo(onCircle(balls[i], angle), p)));
   }, Infinity);
 }

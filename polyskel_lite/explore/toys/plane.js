@@ -1,5 +1,5 @@
 // The plane's geometry for pages without a kernel: samples, their graphs, what a shape sees of them, maximal balls.
-// Points are [x, y], segments pairs of points, facets pairs of indices; everything is right to the last sign.
+// Points are [x, y], segments pairs of points, facets pairs of indices; every sign is right.
 // Mirrors polyskel_lite: delaunay, gabriel_mask, Tessellation (graphs); VoronoiInside of sk1, sk2, sk3 and sk0
 // (skeletons.four_methods); Shape.sample, .covering_radius; grown_ball and contact_points (skeletons.maximal_balls);
 // exact.first_meeting is polygonCrosses here.
@@ -192,15 +192,17 @@ export function rayEnd({ points, simplices }, [a, b], s, { center }, extent = ex
   return [center[0] + way * (q[1] - p[1]), center[1] - way * (q[0] - p[0])];
 }
 
-/** Betti numbers of a graph: pieces and loops. */
-export function bettiOf(count, edges) {
+/** For each of some things one of those that it is linked to, the same for all of them. */
+export function groupsOf(count, links) {
   const parent = Array.from({ length: count }, (_, v) => v);
   const root = (v) => { while (parent[v] !== v) v = parent[v] = parent[parent[v]]; return v; };
-  let pieces = count;
-  for (const [a, b] of edges) {
-    const u = root(a), v = root(b);
-    if (u !== v) { parent[u] = v; pieces -= 1; }
-  }
+  for (const [a, b] of links) parent[root(a)] = root(b);
+  return parent.map((_, v) => root(v));
+}
+
+/** Betti numbers of a graph: pieces and loops. */
+export function bettiOf(count, edges) {
+  const pieces = new Set(groupsOf(count, edges)).size;
   return [pieces, edges.length - count + pieces];
 }
 
