@@ -335,6 +335,7 @@ def scales(rng):
         points = rng.random((rng.integers(3, 20), 2)) + rng.choice([0, 1e3])
         yield Graph(points * size)
         yield Graph(np.unique(rng.integers(0, 4, (12, 2)), axis=0) * size)
+    yield Graph(np.array([(0, 0), (1, 1), (2, 2), (3, 3), (1, 3)]) * 1e140)  # a radius of 1e156
 
 
 def no_tessellation(rng):
@@ -419,6 +420,9 @@ def several_rings(rng):
 
 
 def scaled_shapes(rng):
+    # A Voronoi edge of which all is inside, but the last 3e-32.
+    steps = np.array([(4, 0), (4, 5), (3, 5), (3, 3), (2, 3), (2, 2), (1, 2), (1, 4), (0, 4), (0, 0)])
+    yield Seen(psl.Shape(steps * 1e-120, ring_facets([10])))
     for size in [1e-120, 1e-60, 1e-7, 1e7, 1e60, 1e120] * 4:
         shape = tried(1, lambda: star(rng, 0.1))[0]
         moved = psl.Shape((shape.points + rng.choice([0, 100])) * size, shape.facets)

@@ -158,7 +158,7 @@ export function circumballs({ points, simplices }) {
     // Of a thin triangle rounding would move, or lose, the centre.
     if (!ordinary || !(Math.abs(twice) > 1e-6 * size)) {
       whole ??= new Rational([], points);
-      const center = whole.place(whole.center(corners)), r = distanceTo(center, p);
+      const center = whole.place(whole.center(corners)), r = Math.hypot(...minus(center, p));
       return { center, r, error: 8 * UNIT * (extentOf([center]) + r) };
     }
     const x = (by * A - ay * B) / twice, y = (ax * B - bx * A) / twice, r = Math.hypot(x, y);
@@ -233,13 +233,13 @@ function footOn([a, b], p) {
 export const distance = (p, segment) => distanceTo(p, footOn(segment, p));
 
 /**
- * Where the way from a to b meets segments, both ends known to `slack`: [{t, segment}] in order, or null if rounding
- * leaves a doubt.
+ * Where the way from a to b meets segments, as shares of it; its ends are known to `slack`. Null if rounding leaves a
+ * doubt.
  */
 function cuts(segments, [ax, ay], [bx, by], slack) {
   const found = [], dx = bx - ax, dy = by - ay, long = Math.hypot(dx, dy);
-  for (const segment of segments) {
-    const [[px, py], [qx, qy]] = segment, ex = qx - px, ey = qy - py, wide = Math.hypot(ex, ey);
+  for (const [[px, py], [qx, qy]] of segments) {
+    const ex = qx - px, ey = qy - py, wide = Math.hypot(ex, ey);
     const span = long + wide + Math.hypot(px - ax, py - ay);
     const blur = 2 * slack + 64 * UNIT * span, tilt = blur * (1 + (2 * span) / long);
     const a = (ex * (ay - py) - ey * (ax - px)) / wide, b = (ex * (by - py) - ey * (bx - px)) / wide;
@@ -249,15 +249,9 @@ function cuts(segments, [ax, ay], [bx, by], slack) {
     const split = Math.abs(p) > tilt && Math.abs(q) > tilt;
     if (split && p * q > 0) continue;
     if (!(apart && split)) return null;
-    found.push({ t: a / (a - b), segment });
+    found.push(a / (a - b));
   }
-  return found.sort((u, v) => u.t - v.t);
-}
-
-/** The point of a segment that is as far from one sample as from another: centres far away are rounded coarsely. */
-function asFar([p, q], a, b) {
-  const way = minus(b, a);
-  return between(p, q, (dot(way, way) / 2 - dot(way, minus(p, a))) / dot(way, minus(q, p)));
+  return found.sort((u, v) => u - v);
 }
 
 /**
@@ -278,8 +272,8 @@ export function voronoiInShape(segments, tessellation) {
       const level = near([x - most, y - most, Infinity, y + most]);
       if (level.every((s) => distance(center, s) > most)) return locate(level, center) > 0;
     }
-    const whole = rational();
-    return whole.contains(whole.center(simplices[t]));
+    const exact = rational();
+    return exact.contains(exact.center(simplices[t]));
   });
   const edges = [], pieces = [];
   for (const { ends: [a, b], sides: [s, t], apexes: [apex] } of table) {
@@ -291,15 +285,14 @@ export function voronoiInShape(segments, tessellation) {
     if (found && !found.length) {
       if (inside[s] && t >= 0) edges.push([s, t]);
     } else if (found) {
-      const places = found.map(({ segment }) => asFar(segment, points[a], points[b]));
-      const stops = [center, ...places, end];
+      const stops = [center, ...found.map((t) => between(center, end, t)), end];
       for (let k = inside[s] ? 0 : 1; k + 1 < stops.length; k += 2) pieces.push([stops[k], stops[k + 1]]);
     } else {
-      const whole = rational(), from = whole.center(simplices[s]);
+      const exact = rational(), from = exact.center(simplices[s]);
       const [p, q] = orientation(points[a], points[b], points[apex]) > 0 ? [a, b] : [b, a];
-      const parts = whole.clip(from, t < 0 ? whole.far(from, p, q) : whole.center(simplices[t]));
-      if (parts.length === 1 && parts[0][0].t === 0 && parts[0][1].t === 1) edges.push([s, t]);
-      else for (const part of parts) pieces.push(part.map(({ at }) => at));
+      const part = exact.clip(from, t < 0 ? exact.far(from, p, q) : exact.center(simplices[t]));
+      if (part.whole) edges.push([s, t]);
+      else pieces.push(...part.pieces);
     }
   }
   return { balls, table, inside, edges, pieces, doubts };

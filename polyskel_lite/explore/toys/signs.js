@@ -101,12 +101,11 @@ export class Rational {
     return inside;
   }
 
-  /** The parts of the way from P to Q that are in the closed region: [start, end], each {t, at} with t from 0 to 1. */
+  /** The `pieces` of the way from P to Q that are in the closed region, in floats, and whether it is `whole`. */
   clip(P, Q) {
     const D = P[2] * Q[2], ax = P[0] * Q[2], ay = P[1] * Q[2], dx = Q[0] * P[2] - ax, dy = Q[1] * P[2] - ay;
     const ends = [[0n, 1n], [1n, 1n]], at = ([t, c]) => [ax * c + dx * t, ay * c + dy * t, D * c];
-    const part = (from, to) => [from, to].map((t) => ({ t: ratio(...t), at: this.place(at(t)) }));
-    if (dx === 0n && dy === 0n) return this.contains(P) ? [part(...ends)] : [];
+    if (dx === 0n && dy === 0n) return { whole: this.contains(P), pieces: [] };
     const parts = [], stops = [...ends, ...this.meetings(ax, ay, dx, dy, D)].sort((s, t) => sign(above(s, t)));
     stops.slice(1).forEach((to, k) => {
       const from = stops[k], middle = [from[0] * to[1] + to[0] * from[1], 2n * from[1] * to[1]];
@@ -115,7 +114,8 @@ export class Rational {
       if (last && above(last[1], from) === 0n) last[1] = to;
       else parts.push([from, to]);
     });
-    return parts.map(([from, to]) => part(from, to));
+    const whole = parts.length === 1 && parts[0][0][0] === 0n && parts[0][1][0] === parts[0][1][1];
+    return { whole, pieces: parts.map((part) => part.map((t) => this.place(at(t)))) };
   }
 
   /** Where the way meets the segments, as fractions of it; of a segment on its line, both ends. */
