@@ -261,8 +261,10 @@ function cuts(segments, [ax, ay], [bx, by], slack) {
  */
 export function voronoiInShape(segments, tessellation) {
   const { points, simplices } = tessellation, extent = Math.max(extentOf(points), extentOf(segments.flat()));
-  const balls = circumballs(tessellation), table = facetTable(tessellation), boxes = segments.map(boxOf);
-  const near = (box) => segments.filter((_, k) => overlap(boxes[k], box));
+  const balls = circumballs(tessellation), table = facetTable(tessellation);
+  const boxes = Float64Array.from(segments.flatMap(boxOf));
+  const near = ([left, low, right, high]) => segments.filter((_, k) =>
+    boxes[4 * k + 1] <= high && boxes[4 * k + 3] >= low && boxes[4 * k] <= right && boxes[4 * k + 2] >= left);
   let doubts = 0, made = null;
   const rational = () => { doubts += 1; made ??= new Rational(segments, points); return made; };
   const sure = (error) => isOrdinary(extent) && Number.isFinite(error);
@@ -347,8 +349,11 @@ export function sampleRings(rings, n, start = 0) {
 
 /** The largest distance from a point of the segments to the nearest sample, right to 1e-9 of itself. */
 export function coveringRadius(segments, E) {
-  const nearest = ([x, y], some) =>
-    Math.sqrt(some.reduce((least, [a, b]) => Math.min(least, (a - x) ** 2 + (b - y) ** 2), Infinity));
+  const nearest = ([x, y], some) => {
+    let least = Infinity;
+    for (const p of some) least = Math.min(least, (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y));
+    return Math.sqrt(least);
+  };
   const coarse = 32 * UNIT * extentOf(segments.flat());
   let best = segments.reduce((most, [a]) => Math.max(most, nearest(a, E)), 0);
   let todo = segments.map(([a, b]) => ({ a, b, some: E }));
