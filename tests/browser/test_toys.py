@@ -263,7 +263,7 @@ def test_all_explorers_on_one_page(visit, folder):
 
 #: Chapters and the explorers that they show.
 IN_CHAPTERS = {
-    name: re.findall(r'json\">{\\"toy\\":\\"(\w+)', file.read_text("utf-8"))
+    name: re.findall(r'json\\">\{\\"toy\\":\\"(\w+)', file.read_text("utf-8"))
     for name in pages()
     if (file := ROOT / f"notebooks/{name}.ipynb").exists()
 }
