@@ -287,7 +287,7 @@ export function voronoiInShape(segments, tessellation) {
     if (found && !found.length) {
       if (inside[s] && t >= 0) edges.push([s, t]);
     } else if (found) {
-      const stops = [center, ...found.map((t) => between(center, end, t)), end];
+      const stops = [center, ...found.map((u) => between(center, end, u)), end];
       for (let k = inside[s] ? 0 : 1; k + 1 < stops.length; k += 2) pieces.push([stops[k], stops[k + 1]]);
     } else {
       const exact = rational(), from = exact.center(simplices[s]);
