@@ -1,7 +1,7 @@
 // A ball grows from a centre that the reader drags until it is maximal; mirrors explorers/growing_ball.py.
 
-import { contacts, distance, grow } from "./plane.js";
-import { locate } from "./signs.js";
+import { contacts, grow } from "./boundary.js";
+import { distance, locate } from "./inside.js";
 import { fill, said, sidesOf, Toy } from "./toy.js";
 
 export class MaximalBall extends Toy {

@@ -1,6 +1,8 @@
 // The four skeletons side by side, and their numbers; mirrors explorers/methods_compared.py.
 
-import { bettiOf, circumballs, delaunay, polygonCrosses, sampleRings, sk0, voronoiInShape } from "./plane.js";
+import { polygonCrosses, sampleRings } from "./boundary.js";
+import { sk0, voronoiInShape } from "./inside.js";
+import { bettiOf, circumballs, delaunay } from "./plane.js";
 import { fill, sidesOf, Toy } from "./toy.js";
 
 export class FourMethods extends Toy {

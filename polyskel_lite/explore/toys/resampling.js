@@ -1,6 +1,8 @@
 // How number, place and noise of the samples change the skeleton; mirrors explorers/resampling.py.
 
-import { bettiOf, coveringRadius, delaunay, sampleRings, voronoiInShape } from "./plane.js";
+import { coveringRadius, sampleRings } from "./boundary.js";
+import { voronoiInShape } from "./inside.js";
+import { bettiOf, delaunay } from "./plane.js";
 import { fill, sidesOf, Toy } from "./toy.js";
 
 export class Sampling extends Toy {

@@ -7,3 +7,6 @@ export const between = ([ax, ay], [bx, by], t) => [ax + t * (bx - ax), ay + t * 
 
 /** The largest of all coordinates, without its sign. */
 export const extentOf = (points) => points.reduce((most, [x, y]) => Math.max(most, Math.abs(x), Math.abs(y)), 0);
+
+/** The box of a segment: left, low, right, high. */
+export const boxOf = ([[ax, ay], [bx, by]]) => [Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by)];
