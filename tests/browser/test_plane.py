@@ -534,9 +534,8 @@ def answers(browser):
     """answers(cases): what a page with the modules in it says."""
     page, errors = browser.new_page(), []
     page.on("pageerror", lambda error: errors.append(error))
-    page.set_content(
-        f"<script type='module'>{page_module(['Balls', 'FourMethods', 'Graphs', 'MaximalBall', 'Sampling'])}{ASK}</script>"
-    )
+    modules = page_module(["Balls", "FourMethods", "Graphs", "MaximalBall", "Sampling"])
+    page.set_content(f"<script type='module'>{modules}{ASK}</script>")
     assert errors == []
 
     def ask(cases):

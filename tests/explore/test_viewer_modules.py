@@ -438,3 +438,32 @@ def test_lines_and_dots_stand_out_from_what_is_behind_them(answer, theme, source
     # The scale of colours can be read in grey: it never gets darker again.
     assert (np.diff([luminance(color) for color in found["ramp"]]) > 0).all()
     assert (luminance(found["ground"]) < 0.1) == (theme == "dark")
+
+
+def test_modules_of_all_rooms_fit_together():
+    files = {file.resolve(): file.read_text("utf-8") for file in sorted(ROOM.parent.rglob("*.js"))}
+    pattern = r'^import \{ (.*) \} from "(\..*)";$'
+    exports = {file: set(re.findall(rf"^export {DEFINED}", text, re.M)) for file, text in files.items()}
+    taken = {file: set() for file in files}
+    for file, text in files.items():
+        found = re.findall(pattern, text, re.M)
+        assert len(found) == len(re.findall(r"^\s*import\b", text, re.M)), f"{file} imports in another form"
+        for names, other in found:
+            target = (file.parent / other).resolve()
+            assert set(names.split(", ")) <= exports[target], (file.name, other)
+            unused = [name for name in names.split(", ") if len(re.findall(rf"\b{name}\b", text)) < 2]
+            assert not unused, f"{file} does not use {unused}"
+            taken[target] |= set(names.split(", "))
+    explorers = {
+        "Balls",
+        "FourMethods",
+        "Graphs",
+        "MaximalBall",
+        "Refinement",
+        "Removals",
+        "Sampling",
+        "start",
+    }
+    tried = set(re.findall(r"\w+", (ROOM.parents[2] / "tests/browser/test_plane.py").read_text("utf-8")))
+    for file in files:
+        assert exports[file] - taken[file] - explorers - tried == set(), file.name

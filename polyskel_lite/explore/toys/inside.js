@@ -93,7 +93,9 @@ export function voronoiInShape(segments, tessellation) {
       const [p, q] = orientation(points[a], points[b], points[apex]) > 0 ? [a, b] : [b, a];
       const part = exact.clip(from, t < 0 ? exact.far(from, p, q) : exact.center(simplices[t]));
       if (part.whole) edges.push([s, t]);
-      else pieces.push(...part.pieces.map(({ line, first, last }) => ({ line, ends: [first ? s : -1, last ? t : -1] })));
+      else for (const { line, first, last } of part.pieces) {
+        pieces.push({ line, ends: [first ? s : -1, last ? t : -1] });
+      }
     }
   }
   return { balls, table, inside, edges, pieces, doubts };

@@ -38,7 +38,10 @@ export class FourMethods extends Toy {
     const found = {
       sk1: { points: used.map((i) => balls[i].center), counts: counted(used.length, []) },
       sk2: { lines: edges.map(between), counts: counted(used.length, inner) },
-      sk3: { lines: [...edges.map(between), ...pieces.map(({ line }) => line)], counts: counted(cuts, [...inner, ...cut]) },
+      sk3: {
+        lines: [...edges.map(between), ...pieces.map(({ line }) => line)],
+        counts: counted(cuts, [...inner, ...cut]),
+      },
       sk0: {},
       sides: [],
     };

@@ -1,7 +1,7 @@
 // The union of balls that the reader adds, moves and grows; mirrors explorers/moving_balls.py.
 
 import { ballSkeleton } from "./discs.js";
-import { circumballs, delaunay, facetTable, rayEnd } from "./plane.js";
+import { circumballs, delaunay, facetTable, voronoiEdges } from "./plane.js";
 import { fill, Toy } from "./toy.js";
 
 export class Balls extends Toy {
@@ -66,8 +66,7 @@ export class Balls extends Toy {
   voronoi(points) {
     const t = delaunay(points);
     if (!t) return [];
-    const balls = circumballs(t);
-    return facetTable(t).map(({ ends, sides: [s, u] }) => [balls[s].center, u < 0 ? rayEnd(t, ends, s, balls[s]) : balls[u].center]);
+    return voronoiEdges(t, circumballs(t), facetTable(t));
   }
 
   /** Read the handle that was dragged, or the slider that was moved. */

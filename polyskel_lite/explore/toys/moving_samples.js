@@ -1,6 +1,6 @@
 // Delaunay, Voronoi and Gabriel graph over points that the reader moves; mirrors explorers/moving_samples.py.
 
-import { circumballs, delaunay, facetTable, gabrielMask, rayEnd } from "./plane.js";
+import { circumballs, delaunay, facetTable, gabrielMask, voronoiEdges } from "./plane.js";
 import { fill, Toy } from "./toy.js";
 
 export class Graphs extends Toy {
@@ -12,7 +12,7 @@ export class Graphs extends Toy {
     const sides = (rows) => rows.map(({ ends: [a, b] }) => [points[a], points[b]]);
     const lines = {
       delaunay: sides(table),
-      voronoi: table.map(({ ends, sides: [s, u] }) => [balls[s].center, u < 0 ? rayEnd(t, ends, s, balls[s]) : balls[u].center]),
+      voronoi: voronoiEdges(t, balls, table),
       gabriel: sides(table.filter((_, i) => gabriel[i])),
     };
     const chosen = Object.keys(lines).filter((name) => this.value(name));

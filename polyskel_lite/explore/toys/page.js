@@ -20,14 +20,18 @@ function tie(root, toy) {
       if (open()) toy.set(JSON.parse(words.dataset.to));
       root.scrollIntoView({ block: "nearest" });
     };
-    words.replaceChildren(make("button", { type: "button", title: "Show this in the picture", onclick }, words.textContent));
+    const title = "Show this in the picture";
+    words.replaceChildren(make("button", { type: "button", title, onclick }, words.textContent));
   }
   const knobs = tied(root, "knob").map((words) => {
-    const { min, max, step, label } = toy.controls[words.dataset.to];
-    const oninput = () => { if (open() && input.value !== "") toy.set({ [words.dataset.to]: Number(input.value) }); };
-    const input = make("input", { type: "number", min: `${min}`, max: `${max}`, step: `${step}`, "aria-label": label, oninput });
+    const name = words.dataset.to, { min, max, step, label } = toy.controls[name];
+    const input = make("input", { type: "number", "aria-label": label });
+    Object.assign(input, { min, max, step });
+    input.addEventListener("input", () => {
+      if (open() && input.value !== "") toy.set({ [name]: Number(input.value) });
+    });
     words.replaceChildren(input);
-    return [words.dataset.to, input];
+    return [name, input];
   });
   const readings = tied(root, "reading");
   toy.drawn = () => {

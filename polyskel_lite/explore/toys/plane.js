@@ -183,6 +183,10 @@ export function rayEnd({ points, simplices }, [a, b], s, { center }, extent = ex
   return [center[0] + way * (q[1] - p[1]), center[1] - way * (q[0] - p[0])];
 }
 
+/** The Voronoi edges as segments; unbounded ones leave every picture. */
+export const voronoiEdges = (tessellation, balls, table) => table.map(({ ends, sides: [s, t] }) =>
+  [balls[s].center, t < 0 ? rayEnd(tessellation, ends, s, balls[s]) : balls[t].center]);
+
 /** For each of some things one of those that it is linked to, the same for all of them. */
 export function groupsOf(count, links) {
   const parent = Array.from({ length: count }, (_, v) => v);

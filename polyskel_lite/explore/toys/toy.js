@@ -53,8 +53,8 @@ export const fill = (sentence, values) => sentence.replace(/\{(\w+)\}/g, (_, nam
 /** A subclass says in `redraw` what is on the board for the present controls and handles. */
 export class Toy {
   constructor(told) {
-    Object.assign(this, { words: told.words, given: told.given, pens: told.pens, swatches: told.swatches, still: told.still });
-    this.look = told.look;
+    const { look, words, given, pens, swatches, still } = told;
+    Object.assign(this, { look, words, given, pens, swatches, still });
     this.numbers = {};
     this.hidden = new Set(told.hidden);
     this.model = new PageModel({ ...told.board }, () => this.update());
