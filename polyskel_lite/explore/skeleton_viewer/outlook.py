@@ -8,7 +8,11 @@ import numpy as np
 
 from ...drawing import VIEW
 
-_CELLS = 40  # of the raster that finds what hides, along the diagonal of the box
+_RASTERS = {
+    10: 4,
+    20: 2,
+    40: 1,
+}  # cells along the diagonal of the box, and the weight of each that is covered
 _MOST = 4000  # points looked at
 
 
@@ -40,10 +44,10 @@ def camera(view, points: np.ndarray) -> tuple[dict[str, float], int]:
 
 
 def clear_view(points: np.ndarray) -> dict[str, float]:
-    """The elevation and azimuth, of some hundred, from which the points cover most of a raster.
+    """The elevation and azimuth, of some hundred, from which the points cover most of three rasters.
 
-    Where one part of a skeleton stands before another, it covers less. Of several such places it is the one
-    nearest to the usual camera.
+    Where one part of a skeleton stands before another, or points at the reader, it covers less. Of several
+    such places it is the one nearest to the usual camera.
 
     Examples
     --------
@@ -62,8 +66,11 @@ def clear_view(points: np.ndarray) -> dict[str, float]:
             right = -np.sin(a), np.cos(a), 0
             up = -np.sin(e) * np.cos(a), -np.sin(e) * np.sin(a), np.cos(e)
             # Rounding keeps the last digit of a coordinate from deciding about a cell.
-            cells = np.floor(np.round(points @ np.transpose([right, up]) / size * _CELLS, 6)).astype(int)
-            covered = len(np.unique(cells @ (1, 10 * _CELLS)))
+            seen = np.round(points @ np.transpose([right, up]) / size, 9)
+            covered = sum(
+                weight * len(np.unique(np.floor(seen * cells).astype(int) @ (1, 1000)))
+                for cells, weight in _RASTERS.items()
+            )
             apart = (azimuth - VIEW["azim"] + 180) % 360 - 180
             found = (covered, -np.hypot(elevation - VIEW["elev"], apart), elevation, azimuth)
             best = found if best is None else max(best, found)
