@@ -8,6 +8,10 @@ COUNT  ?= 10000
 SEED   ?= 0
 LOCKED := --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate -q
 FIRST  := notebooks/01_introduction.ipynb
+# What the pages are made of or link to; nothing is built again while all of it is older than the last build.
+PARTS  := book.toml Makefile notebooks polyskel_lite tools tests benchmarks $(VENV)/.book
+BUILT  := _build/html/.built
+AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root) # in a container, as a rule
 
 .DEFAULT_GOAL := help
 .PHONY: help book test lint unit chapters browser lab lite figures bench fuzz run lock clean
@@ -24,9 +28,11 @@ $(LOCKS): $(VENV)/.%: requirements/%.lock
 	@"$(PYTHON)" tools/environment.py $*
 
 book: $(VENV)/.book  ## build the HTML book from book.toml and notebooks/
-	@echo "Building the book (about half a minute the first time) ..."
-	@$(BIN)/python -m sphinx -W --keep-going -q -b html -d _build/doctrees notebooks _build/html
-	@$(BIN)/python tools/check_offline.py _build/html
+	@mkdir -p _build
+	@test -e $(BUILT) && test -z "$$(find $(PARTS) -name __pycache__ -prune -o -newer $(BUILT) -print -quit)" || { \
+	  echo "Building the book (about half a minute the first time) ..." && touch _build/.begun && \
+	  $(BIN)/python -m sphinx -W --keep-going -q -b html -d _build/doctrees notebooks _build/html && \
+	  $(BIN)/python tools/check_offline.py _build/html && mv _build/.begun $(BUILT); }
 	@git diff --quiet HEAD -- notebooks/*.ipynb 2>/dev/null || echo "Note: these chapters differ from what is committed:" \
 	  "$$(git diff --name-only HEAD -- notebooks/*.ipynb 2>/dev/null | tr '\n' ' ')"
 	@echo "The book is ready. Open $(CURDIR)/_build/html/index.html"
@@ -55,7 +61,7 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
 	@$(BIN)/python tools/working_copies.py _build/lab
 	@$(BIN)/jupyter trust _build/lab/notebooks/*.ipynb >/dev/null # or pictures of lines are not shown
-	$(BIN)/jupyter lab _build/lab/$(FIRST)
+	$(BIN)/jupyter lab $(AS_ROOT) --ServerApp.root_dir=_build/lab _build/lab/$(FIRST)
 
 lite: book $(VENV)/.lite  ## build a site in which the chapters run in the browser, nothing to install
 	@echo "Building the browser site (about ten seconds) ..."

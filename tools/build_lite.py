@@ -5,6 +5,7 @@
 The chapters as committed stay untouched. Their copies in the site begin with two cells more: a note, and a
 line that fetches the library from the site itself. Python for the browser (Pyodide) comes from the address
 that jupyterlite-pyodide-kernel has built in; with --pyodide, from a folder that is copied into the site.
+Cells that need what this folder does not have say so, and are left out.
 """
 
 import argparse
@@ -12,6 +13,7 @@ import json
 import re
 import shutil
 import subprocess
+import symtable
 import sys
 from pathlib import Path
 
@@ -33,6 +35,16 @@ SLOW = " The hierarchy of a large solid, compiled there, takes up to a minute he
 MISSING = {
     "03_6_complexity": " So do not compare the seconds measured here, but the shapes of the curves.",
 }
+#: What the library does not need but cells may, as they import it and as Pyodide calls it.
+OTHERS = {"skimage": "scikit-image"}
+LEFT_OUT = """
+
+from IPython.core.magic import register_cell_magic
+
+
+@register_cell_magic
+def left_out(line, cell):
+    print(f"This cell needs {line}, which is not in this site. It was left out; everything else runs.")"""
 
 
 def requirements(code: str) -> list[str]:
@@ -40,14 +52,53 @@ def requirements(code: str) -> list[str]:
     files = re.search(r"\b(from_file|to_file|bring_your_own|explore\.explore)\b", code)
     widgets = re.search(r"\bexplore\b", code)
     library = "polyskel-lite[graph,files,meshes]" if files else "polyskel-lite[graph]"
-    return [library, *(["ipywidgets", "anywidget"] if widgets else [])]
+    others = [package for module, package in OTHERS.items() if imports(code, module)]
+    return [library, *(["ipywidgets", "anywidget"] if widgets else []), *others]
 
 
-def browser_copy(notebook: nbformat.NotebookNode, stem: str) -> nbformat.NotebookNode:
-    """The chapter with the two cells that a browser needs in front."""
-    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
+def imports(code: str, module: str) -> bool:
+    return bool(re.search(rf"^\s*(?:from|import) {module}\b", code, re.M))
+
+
+def needing(module: str, cells: list[str]) -> list[int]:
+    """Which cells import a module, or use what such a cell makes.
+
+    >>> needing("skimage", ["import skimage", "f = lambda: skimage", "x = 2", "y = f()", "print(x)"])
+    [0, 1, 3]
+    """
+    found, lost = [], set()
+    for number, code in enumerate(cells):
+        top = symtable.symtable(code, "cell", "exec")
+        makes = {name.get_name() for name in top.get_symbols() if name.is_assigned() or name.is_imported()}
+        if imports(code, module) or lost & (set(reads(top)) - makes):
+            found.append(number)
+            lost |= makes
+        else:
+            lost -= makes
+    return found
+
+
+def reads(scope: symtable.SymbolTable) -> list[str]:
+    """The names of the notebook that a cell or a function in it reads."""
+    own = [name.get_name() for name in scope.get_symbols() if name.is_global() and name.is_referenced()]
+    return own + [name for inner in scope.get_children() for name in reads(inner)]
+
+
+def browser_copy(notebook: nbformat.NotebookNode, stem: str, absent: set[str]) -> nbformat.NotebookNode:
+    """The chapter with the two cells that a browser needs in front; what is absent is not asked for."""
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    code = "\n".join(cell.source for cell in cells)
     missing = MISSING.get(stem, SLOW if "hierarchy(" in code else "")
-    install = "%pip install -q " + " ".join(requirements(code))
+    install = "%pip install -q " + " ".join(name for name in requirements(code) if name not in absent)
+    for module, package in OTHERS.items():
+        if not imports(code, module):
+            continue
+        missing += f" This chapter takes {package} as well."
+        if package in absent:
+            missing += " It is not in this site, so the cells that need it are left out."
+            install += LEFT_OUT
+            for number in needing(module, [cell.source for cell in cells]):
+                cells[number].source = f"%%left_out {package}\n{cells[number].source}"
     notebook.cells[:0] = [
         nbformat.v4.new_markdown_cell(NOTE.format(missing=missing), id="in-your-browser"),
         nbformat.v4.new_code_cell(install, id="fetch-the-library"),
@@ -55,7 +106,7 @@ def browser_copy(notebook: nbformat.NotebookNode, stem: str) -> nbformat.Noteboo
     return notebook
 
 
-def write_files(folder: Path) -> None:
+def write_files(folder: Path, absent: set[str]) -> None:
     """Lay out the working copies of the chapters and what they read, each at its place in the repository."""
     working_copies.write(folder, ROOT / "_build" / "doctrees")
     (folder / "copies.json").unlink()
@@ -66,7 +117,7 @@ def write_files(folder: Path) -> None:
             if cell.cell_type == "code":
                 cell.metadata["trusted"] = True
         # nbformat would take away who is trusted.
-        copy = json.dumps(browser_copy(notebook, path.stem), ensure_ascii=False)
+        copy = json.dumps(browser_copy(notebook, path.stem, absent), ensure_ascii=False)
         path.write_text(copy, encoding="utf-8")
 
 
@@ -89,7 +140,11 @@ def main() -> int:
     )  # with what `jupyter lite` reads: files/, pypi/, static/
     for folder in (source, output):
         shutil.rmtree(folder, ignore_errors=True)
-    write_files(source / "files")
+    absent = set()
+    if options.pyodide:
+        lock = json.loads((options.pyodide / "pyodide-lock.json").read_text(encoding="utf-8"))
+        absent = set(OTHERS.values()) - set(lock["packages"])
+    write_files(source / "files", absent)
     run("build", "--wheel", "--no-isolation", "--outdir", str(source / "pypi"), ".")
     for wheel in sorted(options.wheels.glob("*-none-any.whl")) if options.wheels else []:
         shutil.copy(wheel, source / "pypi")

@@ -183,10 +183,12 @@ class Chapter:
             source = "".join(cell["source"])
             tags = cell["metadata"].get("tags", [])
             if cell["cell_type"] == "code":
-                hidden = {"source_hidden": True} if solution or "hide-input" in tags else {}
-                if solution:
-                    hidden["outputs_hidden"] = True
-                yield cell | {"metadata": cell["metadata"] | ({"jupyter": hidden} if hidden else {})}
+                hidden = {}
+                if solution:  # JupyterLab keeps the older name `collapsed` in step with its own
+                    hidden = {"collapsed": True, "jupyter": {"source_hidden": True, "outputs_hidden": True}}
+                elif "hide-input" in tags:
+                    hidden = {"jupyter": {"source_hidden": True}}
+                yield cell | {"metadata": cell["metadata"] | hidden}
                 figure = cell["metadata"].get("mystnb", {}).get("figure")
                 if figure:
                     caption = f"**{self.book.called(figure['name'])}.** {self.text(figure['caption'])}"

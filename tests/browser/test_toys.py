@@ -313,7 +313,7 @@ def test_words_of_the_text_follow_and_move_an_explorer(visit, folder):
     assert "With 50 samples the covering radius is 0.0445" in " ".join(plain.page.inner_text("main").split())
 
 
-# What the text after an explorer says was seen: chapter, the words of its button, and what the line then says.
+# What the text says was seen: chapter, the words of a button in it, and what the line under the picture says.
 SEEN = [
     ("02_1_shapes", "n = 100", "covering radius 0.02226 "),
     ("02_1_shapes", "n = 200", "covering radius 0.01113 "),

@@ -52,9 +52,35 @@ def test_code_and_outputs_are_the_chapter_s_own(copies, name):
     kept = [[cell["source"], cell["outputs"]] for cell in source["cells"] if cell["cell_type"] == "code"]
     copy = [cell for cell in json.loads(copies[name])["cells"] if cell["cell_type"] == "code"]
     assert [[cell["source"], cell["outputs"]] for cell in copy if cell["id"] != "install"] == kept
-    for cell in copy:
-        if "hide-input" in cell["metadata"].get("tags", []):
-            assert cell["metadata"]["jupyter"]["source_hidden"]
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_what_the_page_folds_is_folded(book, copies, name):
+    """Cells by JupyterLab's own marks, words by <details>; of solutions outputs too."""
+    page = (book / name.replace(".ipynb", ".html")).read_text(encoding="utf-8")
+    solutions = [block(rest) for rest in page.split('class="solution dropdown')[1:]]
+    copy = json.loads(copies[name])
+    marks = [cell["metadata"] for cell in copy["cells"] if cell["id"] != "install"]
+    whole = [mark for mark in marks if mark.get("jupyter", {}).get("outputs_hidden")]
+    assert [mark for mark in marks if mark.get("collapsed")] == whole
+    assert len(whole) == "".join(solutions).count('<div class="cell ')
+    hidden = [mark for mark in marks if mark.get("jupyter", {}).get("source_hidden")]
+    inputs = page.count("hide above-input") - "".join(solutions).count("hide above-input")
+    assert len(hidden) == len(whole) + inputs
+    titles = re.findall(r"<summary>(.*?)</summary>", text(copy))
+    of_solutions = {title for title in titles if title.startswith("Solution")}
+    assert len(of_solutions) == len(solutions)
+    assert len(set(titles) - of_solutions) == page.count(" sd-dropdown ")
+
+
+def block(page: str) -> str:
+    """The start of a page up to the end of the <div> that it begins in."""
+    depth = 1
+    for tag in re.finditer(r"<(/?)div\b", page):
+        depth += -1 if tag[1] else 1
+        if depth == 0:
+            return page[: tag.start()]
+    raise ValueError("a block without an end")
 
 
 def test_what_a_reader_changed_is_kept(book, tmp_path):

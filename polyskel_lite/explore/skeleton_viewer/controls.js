@@ -1,6 +1,6 @@
 // The controls under the picture: what the reader can set, and what says how it is set.
 
-import { make } from "./dom.js";
+import { make, say } from "./dom.js";
 import { STEPS, TICKS, Track, multiple, typed } from "./threshold.js";
 
 /** All controls of a viewer: the threshold, the variant and the strategy open, the others folded. */
@@ -41,7 +41,8 @@ export class Controls {
     this.refreshers.push(() => {
       const now = viewer.get(key), words = shown(now);
       input.value = String(position(now));
-      if (output.textContent !== words) { output.textContent = words; input.setAttribute("aria-valuetext", words); }
+      say(input, "aria-valuetext", words);
+      if (output.textContent !== words) output.textContent = words;
     });
   }
 
@@ -85,14 +86,14 @@ export class Controls {
       }
       if (track.at(Number(input.value)) !== t) input.value = String(track.step(t));
       step = Number(input.value);
-      input.setAttribute("aria-valuetext", words(t));
+      say(input, "aria-valuetext", words(t));
       for (const button of ticks.children) {
         const [, tick] = TICKS.find(([name]) => name === button.dataset.tick);
-        button.setAttribute("aria-pressed", String(tick === t));
+        say(button, "aria-pressed", String(tick === t));
       }
       // What was refused stays in the field, to be mended, until the threshold changes.
       if (refused && (refused.at !== t || refused.filter !== filter)) refused = null;
-      field.setAttribute("aria-invalid", String(Boolean(refused)));
+      say(field, "aria-invalid", String(Boolean(refused)));
       const why = refused?.why ?? "";
       if (problem.textContent !== why) problem.textContent = why;
       if (!refused) field.value = t === -Infinity ? "" : multiple(t).replace(" π", "");

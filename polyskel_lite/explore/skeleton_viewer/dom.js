@@ -43,3 +43,6 @@ export function whenNear(roots, call) {
   }), { rootMargin: "600px" });
   for (const root of roots) near.observe(root);
 }
+
+/** Set an attribute; if it is so already the browser need not look at the styles again. */
+export function say(node, name, value) { if (node.getAttribute(name) !== value) node.setAttribute(name, value); }

@@ -273,7 +273,7 @@ def counts(header: dict[str, Any], data: bytes, threshold: float, strategy: int 
     Returns
     -------
     dict
-        Numbers of "vertices", "edges", "polygons" and "branches".
+        Numbers of "vertices", "edges", "polygons" and "branches", which are counted by their free ends.
 
     Examples
     --------

@@ -110,8 +110,14 @@ export class Picture {
     this.gl.disableVertexAttribArray(1);
   }
 
-  /** The colour of each vertex, four bytes each (the fourth only fills up). */
+  /** The colour of each vertex, four bytes each (the fourth only fills up); made anew only when the stamp changes. */
   values() {
+    const { viewer, stamp } = this;
+    if (viewer.values?.stamp !== stamp) viewer.values = { stamp, bytes: this.tinted() };
+    return viewer.values.bytes;
+  }
+
+  tinted() {
     const { scene, filter, color } = this, out = new Uint8Array(4 * scene.count), ramp = this.palette.ramp.map(rgb);
     const { largest, power } = filter.header, { levels, rank } = filter, last = ramp.length - 1;
     for (let v = 0; v < scene.count; v++) {

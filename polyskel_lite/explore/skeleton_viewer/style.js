@@ -29,7 +29,7 @@ html[data-theme="dark"] .psl :focus-visible, html[data-theme="dark"] .psl-stage:
 html[data-theme="dark"] .psl input[aria-invalid="true"], [data-jp-theme-light="false"] .psl input[aria-invalid="true"] {
   border-color: #ff8a80; }
 .psl-problem { grid-column: 2 / -1; font-weight: 600; }
-.psl .psl-problem:empty { margin: 0; }
+.psl .psl-problem:empty { margin: -0.6rem 0 0; }
 /* A tick stands under the middle of the slider's thumb, which is 16 pixels wide. */
 .psl-ticks { grid-column: 2; position: relative; height: 1.9rem; margin-top: -0.5rem; }
 .psl .psl-ticks button { position: absolute; left: calc(var(--at) * (100% - 16px) + 8px); transform: translateX(-50%);

@@ -213,6 +213,9 @@ class SkeletonViewer(anywidget.AnyWidget):
     def counts(self, threshold: float | None = None) -> dict[str, int]:
         """Numbers of vertices, edges, polygons and branches shown, at this threshold or another one.
 
+        Branches are counted by their free ends, as the paper does: the number is
+        ``branch_graph(skeleton).graph["branches"]``.
+
         Examples
         --------
         >>> import polyskel_lite as psl

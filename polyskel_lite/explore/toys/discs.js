@@ -1,7 +1,8 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
 // Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
 
-import { bettiOf, between, circumballs, delaunay, distanceTo, extentOf, facetTable } from "./plane.js";
+import { bettiOf, circumballs, delaunay, edgeKey, facetTable, groupsOf } from "./plane.js";
+import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
 
 const TURN = 2 * Math.PI;
 // As in polyballs.pairs: what rounding may change, what a ball is believed to, which points are on a circle.
@@ -12,11 +13,10 @@ const SAME = 1e-9, CONE = 1e-9;
 const rounding = (...balls) => ROUNDING * balls.reduce((sum, { c, r }) => sum + extentOf([c]) + r, 0);
 const believed = (a, b) => PRECISION * Math.min(a.r, b.r) + rounding(a, b);
 const gap = (a, b) => distanceTo(a.c, b.c) - a.r - b.r;
-const minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
-const inner = (u, v) => u[0] * v[0] + u[1] * v[1];
-const outer = (u, v) => u[0] * v[1] - u[1] * v[0];
+const cross = (u, v) => u[0] * v[1] - u[1] * v[0];
 const unitOf = (v) => [v[0] / Math.hypot(...v), v[1] / Math.hypot(...v)];
 const onCircle = ({ c, r }, angle) => [c[0] + r * Math.cos(angle), c[1] + r * Math.sin(angle)];
+const turned = (angle) => ((angle % TURN) + TURN) % TURN;
 const pairsOf = (list) => list.flatMap((a, k) => list.slice(k + 1).map((b) => [a, b]));
 
 /** The discs that are not equal, up to rounding, to one before them. */
@@ -52,15 +52,14 @@ function uncovered(covers) {
   const origin = covers[0].start - covers[0].error;
   // Once around, from the start of one part to it again; widened by their errors, so that no gap is mere rounding.
   const parts = covers.flatMap(({ start, width, error }, k) => {
-    const turned = (((start - origin) % TURN) + TURN) % TURN;
-    const copies = [0, ...(turned + width + error > TURN ? [-TURN] : []), ...(k ? [] : [TURN])];
-    return copies.map((shift) => ({ from: turned + shift, to: turned + width + shift, error }));
+    const from = turned(start - origin), over = from + width + error > TURN ? [-TURN] : [];
+    return [0, ...over, ...(k ? [] : [TURN])].map((t) => ({ from: from + t, to: from + width + t, error }));
   }).sort((a, b) => a.from - a.error - b.from + b.error);
   const arcs = [];
   let last = parts[0];
   for (const part of parts.slice(1)) {
     if (part.from - part.error > last.to + last.error) {
-      const start = ((((origin + last.to + Math.PI) % TURN) + TURN) % TURN) - Math.PI;
+      const start = turned(origin + last.to + Math.PI) - Math.PI;
       arcs.push({ start, end: start + part.from - last.to, errors: [last.error, part.error] });
     }
     if (part.to + part.error > last.to + last.error) last = part;
@@ -70,14 +69,10 @@ function uncovered(covers) {
 
 /** The first by `better` of each group of points linked by distances up to `reach(i, j)`. */
 function merged(points, reach, better) {
-  const root = points.map((_, k) => k);
-  const find = (k) => { while (root[k] !== k) k = root[k]; return k; };
-  for (const [i, j] of pairsOf([...points.keys()])) {
-    if (distanceTo(points[i], points[j]) <= reach(i, j)) root[find(i)] = find(j);
-  }
+  const near = ([i, j]) => distanceTo(points[i], points[j]) <= reach(i, j);
+  const groups = groupsOf(points.length, pairsOf([...points.keys()]).filter(near));
   const best = new Map();
-  points.forEach((_, k) => {
-    const group = find(k);
+  groups.forEach((group, k) => {
     if (!best.has(group) || better(k, best.get(group))) best.set(group, k);
   });
   return [...best.values()].sort((i, j) => i - j).map((k) => points[k]);
@@ -94,7 +89,7 @@ function contact(balls, rows, i, j) {
     if (out <= error) through.push(unitOf(minus(ball.c, p)));
   }
   // Only the common tangent is free; a step along it leaves the discs that are not ahead.
-  const [x, y] = unitOf(minus(b.c, p)), free = (way) => through.every((toward) => inner(way, toward) <= 1e-9);
+  const [x, y] = unitOf(minus(b.c, p)), free = (way) => through.every((toward) => dot(way, toward) <= 1e-9);
   return through.length < 3 || free([-y, x]) || free([y, -x]) ? p : null;
 }
 
@@ -139,30 +134,12 @@ function areaOf(balls, arcs) {
 
 // --- definitions 1 to 3 ------------------------------------------------------------------------------
 
-/** Whether no point has its least power to disc i: other discs cover all of it at once. */
-function hidden(balls, rows, i) {
-  const { c, r } = balls[i], far = 10 * Math.max(...rows.map((j) => distanceTo(c, balls[j].c) + balls[j].r));
-  let cell = [[-far, -far], [far, -far], [far, far], [-far, far]];
-  for (const j of rows) {
-    if (j === i) continue;
-    const way = minus(balls[j].c, c), half = (inner(way, way) + r * r - balls[j].r ** 2) / 2;
-    const room = cell.map((p) => half - inner(way, p)), { length } = cell;
-    cell = cell.flatMap((p, k) => {
-      const next = (k + 1) % length, kept = room[k] >= 0 ? [p] : [];
-      if (room[k] >= 0 === room[next] >= 0) return kept;
-      return [...kept, between(p, cell[next], room[k] / (room[k] - room[next]))];
-    });
-  }
-  return !cell.length;
-}
-
 /** Radius of the largest disc around a point in a union, negative if the point is not in it. */
 function roomIn(balls, p) {
   if (!balls.some(({ c, r }) => distanceTo(c, p) <= r)) return -1;
   return union(balls).arcs.reduce((least, [i, start, end]) => {
     const { c, r } = balls[i], [x, y] = minus(p, c), d = Math.hypot(x, y);
-    const turned = (((Math.atan2(y, x) - start) % TURN) + TURN) % TURN;
-    const near = d === 0 || turned <= end - start ? Math.abs(d - r) : Infinity;
+    const near = d === 0 || turned(Math.atan2(y, x) - start) <= end - start ? Math.abs(d - r) : Infinity;
     return Math.min(least, near, ...[start, end].map((angle) => distanceTo(onCircle(balls[i], angle), p)));
   }, Infinity);
 }
@@ -170,7 +147,7 @@ function roomIn(balls, p) {
 /** Discs that generate the union, none of which can be left out (definition 1); the smallest ones go first. */
 export function generating(balls, { rows, arcs }) {
   const exposed = new Set(arcs.map(([i]) => i));
-  let kept = rows.filter((i) => exposed.has(i) || !hidden(balls, rows, i));
+  let kept = rows;
   for (const i of kept.filter((k) => !exposed.has(k)).sort((a, b) => balls[a].r - balls[b].r)) {
     const others = kept.filter((j) => j !== i), ball = balls[i];
     if (roomIn(others.map((j) => balls[j]), ball.c) >= (1 - 1e-9) * ball.r) kept = others;
@@ -185,7 +162,8 @@ export function disconnected(balls, kept) {
 }
 
 /** Pairs of generating discs that cross on the boundary and whose common part meets no third one (definition 3). */
-export function quasiDisconnected(balls, kept, through) {
+export function quasiDisconnected(balls, kept, { rows, singular }) {
+  const { through } = gathered(balls, rows, singular);
   return pairsOf(kept).filter(([i, j]) => through.filter((on) => on.includes(i) && on.includes(j)).length > 1)
     .filter(([i, j]) => kept.every((k) => k === i || k === j ||
       distanceToLens(balls[k].c, balls[i], balls[j]) > balls[k].r * (1 + PRECISION)));
@@ -217,10 +195,10 @@ function gathered(balls, rows, corners) {
 /** Whether a vector is a positive combination of others, or nearly. */
 function inCone(vector, ways) {
   const v = unitOf(vector), units = ways.map(unitOf);
-  const along = (u) => inner(u, v) >= 0 && Math.abs(outer(u, v)) <= CONE;
+  const along = (u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE;
   const among = (u, w) => {
-    const d = outer(u, w);
-    return Math.abs(d) > PRECISION && outer(v, w) / d >= 0 && outer(u, v) / d >= 0;
+    const d = cross(u, w);
+    return Math.abs(d) > PRECISION && cross(v, w) / d >= 0 && cross(u, v) / d >= 0;
   };
   return units.some(along) || pairsOf(units).some(([u, w]) => among(u, w));
 }
@@ -233,19 +211,10 @@ function neighbourhood(points) {
   return { balls: [], simplices: [], rows: order.slice(1).map((b, k) => [order[k], b, []]) };
 }
 
-/**
- * The union and its exact skeleton: `segments` and `dots` (its vertices), Betti numbers, how many discs are `needed`,
- * `disconnected`, and pairs `quasiDisconnected`. Where the library raises an error, `refused` says why.
- */
-export function ballSkeleton(balls) {
-  const boundary = union(balls), { singular, through } = gathered(balls, boundary.rows, boundary.singular);
-  const kept = generating(balls, boundary), exposed = new Set(boundary.arcs.map(([i]) => i));
-  const numbers = {
-    ...boundary, needed: kept.length, disconnected: disconnected(balls, kept).length,
-    quasiDisconnected: quasiDisconnected(balls, kept, through).length,
-  };
-  if (boundary.touching.length) return { ...numbers, segments: [], dots: [], betti: null, refused: "tangent" };
-  const places = balls.map(({ c }) => c), sizes = balls.map(({ r }) => r), graph = neighbourhood(singular);
+/** The exact skeleton of a union: its vertices, and its edges as pairs of them. */
+function skeletonOf(balls, { rows, arcs, singular: given }) {
+  const { singular, through } = gathered(balls, rows, given), graph = neighbourhood(singular);
+  const exposed = [...new Set(arcs.map(([i]) => i))], places = balls.map(({ c }) => c), sizes = balls.map(({ r }) => r);
   const labels = graph.simplices.map((corners, k) => {
     const common = through[corners[0]].filter((i) => corners.every((v) => through[v].includes(i)));
     if (common.length) return common[0];
@@ -260,16 +229,30 @@ export function ballSkeleton(balls) {
   const edges = new Map();
   for (const [a, b, sides] of graph.rows) {
     const across = minus(singular[b], singular[a]), way = [-across[1], across[0]];
-    const discs = through[a].filter((i) => exposed.has(i) && through[b].includes(i));
+    const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
-    ends.sort((u, v) => inner(way, places[u]) - inner(way, places[v]));
-    ends.slice(1).forEach((v, k) => {
-      const u = ends[k];
-      edges.set(u < v ? `${u} ${v}` : `${v} ${u}`, [u, v]);
-    });
+    ends.sort((u, v) => dot(way, places[u]) - dot(way, places[v]));
+    ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
-  const used = [...new Set([...exposed, ...[...edges.values()].flat()])], number = new Map(used.map((v, k) => [v, k]));
-  const numbered = [...edges.values()].map((edge) => edge.map((v) => number.get(v)));
-  const segments = [...edges.values()].map((edge) => edge.map((v) => places[v]));
-  return { ...numbers, segments, dots: used.map((v) => places[v]), betti: bettiOf(used.length, numbered) };
+  const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
+  return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
+}
+
+/**
+ * The union and its exact skeleton: `segments` and `dots` (its vertices), Betti numbers; how many discs are `needed`
+ * and `disconnected`, how many pairs `quasiDisconnected`. Where the library raises an error, `refused` says why.
+ */
+export function ballSkeleton(balls) {
+  const boundary = union(balls), kept = generating(balls, boundary);
+  const found = {
+    ...boundary, needed: kept.length, disconnected: disconnected(balls, kept).length,
+    quasiDisconnected: quasiDisconnected(balls, kept, boundary).length,
+  };
+  const none = { ...found, segments: [], dots: [], betti: null };
+  if (boundary.touching.length) return { ...none, refused: "tangent" };
+  const { dots, edges } = skeletonOf(balls, boundary), betti = bettiOf(dots.length, edges);
+  // Discs may miss each other by no more than rounding: the skeleton must be like that of slightly larger ones.
+  const grown = balls.map(({ c, r }) => ({ c, r: r * Math.sqrt(1 + ON) })), other = skeletonOf(grown, union(grown));
+  if (bettiOf(other.dots.length, other.edges).some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
+  return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
 }

@@ -1,23 +1,21 @@
 // The plane's geometry for pages without a kernel: samples, their graphs, what a shape sees of them, maximal balls.
-// Points are [x, y], segments pairs of points, facets pairs of indices; everything is right to the last sign.
+// Points are [x, y], segments pairs of points, facets pairs of indices; every sign is right.
 // Mirrors polyskel_lite: delaunay, gabriel_mask, Tessellation (graphs); VoronoiInside of sk1, sk2, sk3 and sk0
 // (skeletons.four_methods); Shape.sample, .covering_radius; grown_ball and contact_points (skeletons.maximal_balls);
 // exact.first_meeting is polygonCrosses here.
 
-import { UNIT, orientation, inBall, inGabrielBall, locate, Rational } from "./signs.js";
+import { UNIT, orientation, inBall, inGabrielBall, Rational } from "./signs.js";
+import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
 
-const edgeKey = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
-export const distanceTo = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
-export const between = ([ax, ay], [bx, by], t) => [ax + t * (bx - ax), ay + t * (by - ay)];
+/** Two vertices in either order as one number. */
+export const edgeKey = (a, b) => (a < b ? a * 2 ** 26 + b : b * 2 ** 26 + a);
 
-/** The largest of all coordinates, without its sign. */
-export const extentOf = (points) => points.reduce((most, [x, y]) => Math.max(most, Math.abs(x), Math.abs(y)), 0);
+/** Whether products of four coordinates are ordinary floats. Others are left to whole numbers. */
+const isOrdinary = (extent) => extent > 1e-60 && extent < 1e60;
 
-/** The power of two in which products of coordinates are ordinary floats: 1, but for huge and tiny ones. */
-function ordinary(extent) {
-  const exponent = Math.floor(Math.log2(extent || 1));
-  return Math.abs(exponent) <= 200 ? 1 : 2 ** exponent;
-}
+/** The box of a segment: left, low, right, high. */
+const boxOf = ([[ax, ay], [bx, by]]) => [Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by)];
+const overlap = (a, b) => a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 
 // --- the Delaunay tessellation -----------------------------------------------------------------------
 
@@ -151,20 +149,21 @@ function swept(points, order, first, rank) {
 
 /** The balls of the triangles; a centre is within `error` of the true one. */
 export function circumballs({ points, simplices }) {
-  const extent = extentOf(points), unit = ordinary(extent);
+  const ordinary = isOrdinary(extentOf(points));
   let whole = null;
   return simplices.map((corners) => {
-    const [p, q, s] = corners.map((v) => points[v]), [ax, ay] = [(q[0] - p[0]) / unit, (q[1] - p[1]) / unit];
-    const bx = (s[0] - p[0]) / unit, by = (s[1] - p[1]) / unit, A = ax * ax + ay * ay, B = bx * bx + by * by;
-    const twice = 2 * (ax * by - ay * bx), size = Math.sqrt(A) * Math.sqrt(B);
-    if (!(Math.abs(twice) > 1e-6 * size)) { // rounding would move, or lose, the centre of a thin triangle
+    const [p, q, s] = corners.map((v) => points[v]), [ax, ay] = minus(q, p), [bx, by] = minus(s, p);
+    const A = ax * ax + ay * ay, B = bx * bx + by * by, twice = 2 * (ax * by - ay * bx);
+    const size = Math.sqrt(A) * Math.sqrt(B);
+    // Of a thin triangle rounding would move, or lose, the centre.
+    if (!ordinary || !(Math.abs(twice) > 1e-6 * size)) {
       whole ??= new Rational([], points);
-      const center = whole.place(whole.center(corners)), r = distanceTo(center, p);
+      const center = whole.place(whole.center(corners)), r = Math.hypot(...minus(center, p));
       return { center, r, error: 8 * UNIT * (extentOf([center]) + r) };
     }
-    const x = (by * A - ay * B) / twice, y = (ax * B - bx * A) / twice, r = unit * Math.hypot(x, y);
-    const center = [p[0] + unit * x, p[1] + unit * y];
-    const error = (64 * UNIT * (unit * Math.sqrt(Math.max(A, B)) + r) * size) / Math.abs(twice);
+    const x = (by * A - ay * B) / twice, y = (ax * B - bx * A) / twice, r = Math.hypot(x, y);
+    const center = [p[0] + x, p[1] + y];
+    const error = (64 * UNIT * (Math.sqrt(Math.max(A, B)) + r) * size) / Math.abs(twice);
     return { center, r, error: error + 8 * UNIT * (extentOf([center]) + r) };
   });
 }
@@ -187,66 +186,61 @@ export function gabrielMask({ points }, table, closed = true) {
 }
 
 /** A point far outside on the Voronoi ray of an edge of the hull, which begins at the centre of triangle s. */
-export function rayEnd({ points, simplices }, [a, b], s, { center }, reach = extentOf([...points, center])) {
+export function rayEnd({ points, simplices }, [a, b], s, { center }, extent = extentOf(points)) {
   const p = points[a], q = points[b], apex = points[simplices[s].find((v) => v !== a && v !== b)];
-  const way = 8 * reach * (orientation(p, q, apex) > 0 ? 1 : -1) / distanceTo(p, q);
+  const way = 8 * Math.max(extent, extentOf([center])) * (orientation(p, q, apex) > 0 ? 1 : -1) / distanceTo(p, q);
   return [center[0] + way * (q[1] - p[1]), center[1] - way * (q[0] - p[0])];
+}
+
+/** For each of some things one of those that it is linked to, the same for all of them. */
+export function groupsOf(count, links) {
+  const parent = Array.from({ length: count }, (_, v) => v);
+  const root = (v) => { while (parent[v] !== v) v = parent[v] = parent[parent[v]]; return v; };
+  for (const [a, b] of links) parent[root(a)] = root(b);
+  return parent.map((_, v) => root(v));
 }
 
 /** Betti numbers of a graph: pieces and loops. */
 export function bettiOf(count, edges) {
-  const parent = Array.from({ length: count }, (_, v) => v);
-  const root = (v) => { while (parent[v] !== v) v = parent[v] = parent[parent[v]]; return v; };
-  let pieces = count;
-  for (const [a, b] of edges) {
-    const u = root(a), v = root(b);
-    if (u !== v) { parent[u] = v; pieces -= 1; }
-  }
+  const pieces = new Set(groupsOf(count, edges)).size;
   return [pieces, edges.length - count + pieces];
 }
 
 // --- the Voronoi graph seen from a shape -------------------------------------------------------------
 
-/** How far a point is from a segment. */
-export function distance([x, y], [[ax, ay], [bx, by]]) {
-  const dx = bx - ax, dy = by - ay, t = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy);
-  return distanceTo([x, y], between([ax, ay], [bx, by], Math.min(1, Math.max(0, t))));
+/** +1 if p is inside the closed segments, 0 on one, -1 outside: by the crossings of its ray to the right. */
+export function locate(segments, p) {
+  let inside = false;
+  for (const [a, b] of segments) {
+    if ((a[1] > p[1]) !== (b[1] > p[1])) {
+      const side = a[1] < b[1] ? orientation(a, b, p) : orientation(b, a, p);
+      if (side === 0) return 0;
+      if (side > 0) inside = !inside;
+    } else if (a[1] === p[1] && b[1] === p[1]) {
+      if (Math.min(a[0], b[0]) <= p[0] && p[0] <= Math.max(a[0], b[0])) return 0;
+    } else if ((a[0] === p[0] && a[1] === p[1]) || (b[0] === p[0] && b[1] === p[1])) return 0;
+  }
+  return inside ? 1 : -1;
 }
 
-/** Segments in horizontal strips, so that those that reach some heights are found at once. */
-function strips(segments) {
-  const heights = segments.flatMap(([[, a], [, b]]) => [a, b]), count = Math.ceil(segments.length / 2);
-  const low = heights.reduce((x, y) => Math.min(x, y)), high = heights.reduce((x, y) => Math.max(x, y));
-  const strip = (y) => Math.min(count - 1, Math.max(0, Math.floor(((y - low) / (high - low)) * count)));
-  const rows = Array.from({ length: count }, () => []), seen = new Int32Array(segments.length);
-  segments.forEach(([[, a], [, b]], k) => {
-    for (let r = strip(Math.min(a, b)); r <= strip(Math.max(a, b)); r += 1) rows[r].push(k);
-  });
-  let asked = 0;
-  return (from, to) => {
-    const found = [];
-    asked += 1;
-    if (!(to >= low && from <= high)) return found;
-    for (let r = strip(from); r <= strip(to); r += 1) {
-      for (const k of rows[r]) if (seen[k] !== asked) { seen[k] = asked; found.push(segments[k]); }
-    }
-    return found;
-  };
+/** The point of a segment that is nearest to p. */
+function footOn([a, b], p) {
+  const way = minus(b, a);
+  return between(a, b, Math.min(1, Math.max(0, dot(minus(p, a), way) / dot(way, way))));
 }
+
+/** How far a point is from a segment. */
+export const distance = (p, segment) => distanceTo(p, footOn(segment, p));
 
 /**
- * Where the way from a to b meets segments, both ends known to `slack`: [{t, segment}] in order, or null if rounding
- * leaves a doubt.
+ * Where the way from a to b meets segments, as shares of it; its ends are known to `slack`. Null if rounding leaves a
+ * doubt.
  */
-function cuts([ax, ay], [bx, by], slack, near) {
+function cuts(segments, [ax, ay], [bx, by], slack) {
   const found = [], dx = bx - ax, dy = by - ay, long = Math.hypot(dx, dy);
-  const left = Math.min(ax, bx) - slack, right = Math.max(ax, bx) + slack;
-  const low = Math.min(ay, by) - slack, high = Math.max(ay, by) + slack;
-  for (const segment of near(low, high)) {
-    const [[px, py], [qx, qy]] = segment;
-    if (Math.max(px, qx) < left || Math.min(px, qx) > right) continue;
-    if (Math.max(py, qy) < low || Math.min(py, qy) > high) continue;
-    const ex = qx - px, ey = qy - py, wide = Math.hypot(ex, ey), span = long + wide + Math.hypot(px - ax, py - ay);
+  for (const [[px, py], [qx, qy]] of segments) {
+    const ex = qx - px, ey = qy - py, wide = Math.hypot(ex, ey);
+    const span = long + wide + Math.hypot(px - ax, py - ay);
     const blur = 2 * slack + 64 * UNIT * span, tilt = blur * (1 + (2 * span) / long);
     const a = (ex * (ay - py) - ey * (ax - px)) / wide, b = (ex * (by - py) - ey * (bx - px)) / wide;
     const apart = Math.abs(a) > blur && Math.abs(b) > blur;
@@ -255,15 +249,9 @@ function cuts([ax, ay], [bx, by], slack, near) {
     const split = Math.abs(p) > tilt && Math.abs(q) > tilt;
     if (split && p * q > 0) continue;
     if (!(apart && split)) return null;
-    found.push({ t: a / (a - b), segment });
+    found.push(a / (a - b));
   }
-  return found.sort((u, v) => u.t - v.t);
-}
-
-/** The point of a segment that is as far from one sample as from another: centres far away are rounded coarsely. */
-function asFar([p, q], a, b) {
-  const wx = b[0] - a[0], wy = b[1] - a[1], along = wx * (q[0] - p[0]) + wy * (q[1] - p[1]);
-  return between(p, q, ((wx * wx + wy * wy) / 2 - wx * (p[0] - a[0]) - wy * (p[1] - a[1])) / along);
+  return found.sort((u, v) => u - v);
 }
 
 /**
@@ -273,44 +261,42 @@ function asFar([p, q], a, b) {
  */
 export function voronoiInShape(segments, tessellation) {
   const { points, simplices } = tessellation, extent = Math.max(extentOf(points), extentOf(segments.flat()));
-  const unit = ordinary(extent), scaled = (list) => list.map(([x, y]) => [x / unit, y / unit]);
-  if (unit !== 1) {
-    const found = voronoiInShape(segments.map(scaled), { ...tessellation, points: scaled(points) });
-    const back = (line) => line.map(([x, y]) => [x * unit, y * unit]);
-    const pieces = found.pieces.map(({ line, ends }) => ({ line: back(line), ends }));
-    return { ...found, balls: circumballs(tessellation), pieces };
-  }
-  const balls = circumballs(tessellation), table = facetTable(tessellation), near = strips(segments);
+  const balls = circumballs(tessellation), table = facetTable(tessellation);
+  const boxes = Float64Array.from(segments.flatMap(boxOf));
+  const near = ([left, low, right, high]) => segments.filter((_, k) =>
+    boxes[4 * k + 1] <= high && boxes[4 * k + 3] >= low && boxes[4 * k] <= right && boxes[4 * k + 2] >= left);
   let doubts = 0, made = null;
   const rational = () => { doubts += 1; made ??= new Rational(segments, points); return made; };
+  const sure = (error) => isOrdinary(extent) && Number.isFinite(error);
   const inside = balls.map(({ center, error }, t) => {
-    const most = 2 * error + 64 * UNIT * extent, close = near(center[1] - most, center[1] + most);
-    if (Number.isFinite(error) && close.every((s) => distance(center, s) > most)) return locate(close, center) > 0;
-    const whole = rational();
-    return whole.contains(whole.center(simplices[t]));
+    const most = 2 * error + 64 * UNIT * extent, [x, y] = center;
+    if (sure(error)) {
+      const level = near([x - most, y - most, Infinity, y + most]);
+      if (level.every((s) => distance(center, s) > most)) return locate(level, center) > 0;
+    }
+    const exact = rational();
+    return exact.contains(exact.center(simplices[t]));
   });
   const edges = [], pieces = [];
   for (const { ends: [a, b], sides: [s, t], apexes: [apex] } of table) {
-    const { center, error } = balls[s], reach = Math.max(extent, extentOf([center]));
-    const end = t < 0 ? rayEnd(tessellation, [a, b], s, balls[s], reach) : balls[t].center;
-    const found = cuts(center, end, Math.max(error, balls[t]?.error ?? 0), near);
+    const { center, error } = balls[s];
+    const end = t < 0 ? rayEnd(tessellation, [a, b], s, balls[s], extent) : balls[t].center;
+    const slack = Math.max(error, balls[t]?.error ?? 0), [left, low, right, high] = boxOf([center, end]);
+    const level = near([left - slack, low - slack, right + slack, high + slack]);
+    const found = sure(slack) ? cuts(level, center, end, slack) : null;
     if (found && !found.length) {
       if (inside[s] && t >= 0) edges.push([s, t]);
     } else if (found) {
-      const places = found.map(({ segment }) => asFar(segment, points[a], points[b]));
-      const stops = [center, ...places, end];
+      const stops = [center, ...found.map((t) => between(center, end, t)), end];
       for (let k = inside[s] ? 0 : 1; k + 1 < stops.length; k += 2) {
-        const whole = k + 2 === stops.length;
-        pieces.push({ line: [stops[k], stops[k + 1]], ends: [k ? -1 : s, whole ? t : -1] });
+        pieces.push({ line: [stops[k], stops[k + 1]], ends: [k ? -1 : s, k + 2 === stops.length ? t : -1] });
       }
     } else {
-      const whole = rational(), from = whole.center(simplices[s]);
+      const exact = rational(), from = exact.center(simplices[s]);
       const [p, q] = orientation(points[a], points[b], points[apex]) > 0 ? [a, b] : [b, a];
-      const parts = whole.clip(from, t < 0 ? whole.far(from, p, q) : whole.center(simplices[t]));
-      if (parts.length === 1 && parts[0][0].t === 0 && parts[0][1].t === 1) edges.push([s, t]);
-      else for (const [from, to] of parts) {
-        pieces.push({ line: [from.at, to.at], ends: [from.t === 0 ? s : -1, to.t === 1 ? t : -1] });
-      }
+      const part = exact.clip(from, t < 0 ? exact.far(from, p, q) : exact.center(simplices[t]));
+      if (part.whole) edges.push([s, t]);
+      else for (const { line, first, last } of part.pieces) pieces.push({ line, ends: [first ? s : -1, last ? t : -1] });
     }
   }
   return { balls, table, inside, edges, pieces, doubts };
@@ -365,8 +351,11 @@ export function sampleRings(rings, n, start = 0) {
 
 /** The largest distance from a point of the segments to the nearest sample, right to 1e-9 of itself. */
 export function coveringRadius(segments, E) {
-  const nearest = ([x, y], some) =>
-    Math.sqrt(some.reduce((least, [a, b]) => Math.min(least, (a - x) ** 2 + (b - y) ** 2), Infinity));
+  const nearest = ([x, y], some) => {
+    let least = Infinity;
+    for (const p of some) least = Math.min(least, (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y));
+    return Math.sqrt(least);
+  };
   const coarse = 32 * UNIT * extentOf(segments.flat());
   let best = segments.reduce((most, [a]) => Math.max(most, nearest(a, E)), 0);
   let todo = segments.map(([a, b]) => ({ a, b, some: E }));
@@ -389,10 +378,7 @@ export function coveringRadius(segments, E) {
 
 /** The first two facets that meet elsewhere than at a common end, as [i, j]; null if there are none. */
 export function polygonCrosses(points, facets) {
-  const boxes = facets.map(([a, b]) => {
-    const [[ax, ay], [bx, by]] = [points[a], points[b]];
-    return [Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by)];
-  });
+  const boxes = facets.map(([a, b]) => boxOf([points[a], points[b]]));
   const sides = ([a, b], [c, d]) =>
     orientation(points[a], points[b], points[c]) * orientation(points[a], points[b], points[d]);
   const meet = (e, f) => {
@@ -402,36 +388,30 @@ export function polygonCrosses(points, facets) {
     return p === q || (orientation(c, p, q) === 0 && inGabrielBall(p, q, c) < 0);
   };
   for (let i = 0; i < facets.length; i += 1) {
-    const [left, low, right, high] = boxes[i];
-    for (let j = i + 1; j < facets.length; j += 1) {
-      const other = boxes[j];
-      if (other[0] > right || other[2] < left || other[1] > high || other[3] < low) continue;
-      if (meet(facets[i], facets[j])) return [i, j];
-    }
+    const j = facets.findIndex((other, k) => k > i && overlap(boxes[i], boxes[k]) && meet(facets[i], other));
+    if (j >= 0) return [i, j];
   }
   return null;
 }
 
 // --- maximal balls -----------------------------------------------------------------------------------
 
-/** The points of the segments nearest to p. */
-const feetOf = (segments, p) => segments.map(([a, b]) => {
-  const dx = b[0] - a[0], dy = b[1] - a[1], t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / (dx * dx + dy * dy);
-  const foot = between(a, b, Math.min(1, Math.max(0, t)));
+const feetOf = (segments, p) => segments.map((segment) => {
+  const foot = footOn(segment, p);
   return { foot, far: distanceTo(p, foot) };
 });
 
 /** The radius of the ball around a place inside; centre and radius (`full`) of the maximal ball that touches there. */
 export function grow(segments, place) {
   const nearest = (p) => feetOf(segments, p).reduce((best, one) => (one.far < best.far ? one : best));
-  const { foot, far: radius } = nearest(place), away = [(place[0] - foot[0]) / radius, (place[1] - foot[1]) / radius];
+  const { foot, far: radius } = nearest(place), away = minus(place, foot).map((x) => x / radius);
   const at = (r) => [foot[0] + r * away[0], foot[1] + r * away[1]];
   // A ball that is too large has a nearest boundary point; the next one goes through that.
-  let full = 4 * extentOf(segments.flat().map(([x, y]) => [x - foot[0], y - foot[1]]));
+  let full = 4 * extentOf(segments.flat().map((p) => minus(p, foot)));
   for (let tries = 0; tries < 100; tries += 1) {
-    const { foot: [x, y], far } = nearest(at(full)), wx = x - foot[0], wy = y - foot[1];
-    const smaller = (wx * wx + wy * wy) / (2 * (wx * away[0] + wy * away[1]));
-    if (far >= full * (1 - 1e-9) || !(smaller > 0 && smaller < full * (1 - 1e-9))) break;
+    const { foot: next, far } = nearest(at(full)), way = minus(next, foot);
+    const smaller = dot(way, way) / (2 * dot(way, away));
+    if (far >= full * (1 - 1e-12) || !(smaller > 0 && smaller < full)) break;
     full = smaller;
   }
   full = Math.max(radius, full);

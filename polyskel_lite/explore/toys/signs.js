@@ -40,29 +40,14 @@ export function inBall(a, b, c, d) {
   return sign(lifted(px - x, py - y, qx - x, qy - y, rx - x, ry - y));
 }
 
-const dot = (ax, ay, bx, by, px, py) => (px - ax) * (px - bx) + (py - ay) * (py - by);
+const diametral = (ax, ay, bx, by, px, py) => (px - ax) * (px - bx) + (py - ay) * (py - by);
 
 /** +1 if p is inside the circle with diameter ab, 0 on it, -1 outside. */
 export function inGabrielBall(a, b, p) {
-  const value = dot(...a, ...b, ...p);
+  const value = diametral(...a, ...b, ...p);
   const size = Math.abs((p[0] - a[0]) * (p[0] - b[0])) + Math.abs((p[1] - a[1]) * (p[1] - b[1]));
   if (Math.abs(value) > 16 * UNIT * size + FLOOR) return -sign(value);
-  return -sign(dot(...asIntegers([...a, ...b, ...p])));
-}
-
-/** +1 if p is inside the closed segments, 0 on one, -1 outside: by the crossings of its ray to the right. */
-export function locate(segments, p) {
-  let inside = false;
-  for (const [a, b] of segments) {
-    if ((a[1] > p[1]) !== (b[1] > p[1])) {
-      const side = a[1] < b[1] ? orientation(a, b, p) : orientation(b, a, p);
-      if (side === 0) return 0;
-      if (side > 0) inside = !inside;
-    } else if (a[1] === p[1] && b[1] === p[1]) {
-      if (Math.min(a[0], b[0]) <= p[0] && p[0] <= Math.max(a[0], b[0])) return 0;
-    } else if ((a[0] === p[0] && a[1] === p[1]) || (b[0] === p[0] && b[1] === p[1])) return 0;
-  }
-  return inside ? 1 : -1;
+  return -sign(diametral(...asIntegers([...a, ...b, ...p])));
 }
 
 /** The quotient of two whole numbers, as a float. */
@@ -110,18 +95,17 @@ export class Rational {
       const aboveA = ay * D > Y, aboveB = by * D > Y, level = ay * D === Y || by * D === Y;
       if (aboveA === aboveB && !level) continue;
       const side = (bx - ax) * (Y - ay * D) - (by - ay) * (X - ax * D);
-      if (side === 0n && dot(ax * D, ay * D, bx * D, by * D, X, Y) <= 0n) return true;
+      if (side === 0n && diametral(ax * D, ay * D, bx * D, by * D, X, Y) <= 0n) return true;
       if (aboveA !== aboveB && (aboveB ? side > 0n : side < 0n)) inside = !inside;
     }
     return inside;
   }
 
-  /** The parts of the way from P to Q that are in the closed region: [start, end], each {t, at} with t from 0 to 1. */
+  /** The `pieces` of the way from P to Q in the closed region, in floats, and whether it is `whole`. */
   clip(P, Q) {
     const D = P[2] * Q[2], ax = P[0] * Q[2], ay = P[1] * Q[2], dx = Q[0] * P[2] - ax, dy = Q[1] * P[2] - ay;
     const ends = [[0n, 1n], [1n, 1n]], at = ([t, c]) => [ax * c + dx * t, ay * c + dy * t, D * c];
-    const part = (from, to) => [from, to].map((t) => ({ t: ratio(...t), at: this.place(at(t)) }));
-    if (dx === 0n && dy === 0n) return this.contains(P) ? [part(...ends)] : [];
+    if (dx === 0n && dy === 0n) return { whole: this.contains(P), pieces: [] };
     const parts = [], stops = [...ends, ...this.meetings(ax, ay, dx, dy, D)].sort((s, t) => sign(above(s, t)));
     stops.slice(1).forEach((to, k) => {
       const from = stops[k], middle = [from[0] * to[1] + to[0] * from[1], 2n * from[1] * to[1]];
@@ -130,7 +114,10 @@ export class Rational {
       if (last && above(last[1], from) === 0n) last[1] = to;
       else parts.push([from, to]);
     });
-    return parts.map(([from, to]) => part(from, to));
+    const whole = parts.length === 1 && parts[0][0][0] === 0n && parts[0][1][0] === parts[0][1][1];
+    const piece = ([from, to]) =>
+      ({ line: [from, to].map((t) => this.place(at(t))), first: from[0] === 0n, last: to[0] === to[1] });
+    return { whole, pieces: parts.map(piece) };
   }
 
   /** Where the way meets the segments, as fractions of it; of a segment on its line, both ends. */
