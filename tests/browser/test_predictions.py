@@ -266,6 +266,7 @@ def test_in_print_question_and_verdict_are_there(opened):
     page.emulate_media(media="print")
     for words in ("What is right?", "Because."):
         assert page.get_by_text(words).is_visible()
+    assert page.locator(".psl-look").is_visible()
     assert page.get_by_role("button", name="Lock it in").is_hidden()
 
 
