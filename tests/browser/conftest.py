@@ -153,9 +153,12 @@ ALL_PICTURES = """() => Promise.all([...document.images].map((image) => {
 
 
 def ready(page: "Page") -> None:
-    """Wait until the formulas are set and all pictures and skeleton viewers, as if scrolled to, are there."""
+    """Wait until formulas, pictures, explorers and skeleton viewers are there, as if scrolled to."""
     page.evaluate("async () => { await window.MathJax?.startup?.promise }")
     page.evaluate(ALL_PICTURES)
+    for explorer in page.locator(".psl-toy").all():
+        explorer.scroll_into_view_if_needed()
+        explorer.locator("xpath=self::*[@data-ready='true']").wait_for()
     for viewer in page.locator(".psl-viewer").all():
         viewer.scroll_into_view_if_needed()
         viewer.locator("xpath=self::*[@data-ready='true' and @data-frames]").wait_for()

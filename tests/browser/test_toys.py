@@ -61,7 +61,6 @@ def opened(visit, folder):
 
     def open_page(name: str, **context):
         found = visit(folder.as_uri(), f"{name}.html", **context)
-        found.page.locator(".psl-toy[data-ready]").wait_for()
         return found
 
     return open_page
@@ -254,9 +253,6 @@ def test_all_explorers_on_one_page(visit, folder):
     page = f'<!DOCTYPE html><title>all</title>{page}<script type="module">{module}</script>'
     (folder / "all.html").write_text(page, encoding="utf-8")
     found = visit(folder.as_uri(), "all.html")
-    for toy in found.page.locator(".psl-toy").all():
-        toy.scroll_into_view_if_needed()
-        toy.locator("xpath=self::*[@data-ready='true']").wait_for()
     assert found.page.locator(".psl-text").all_inner_texts() == [one.board.text for one in explorers]
     found.assert_quiet()
 
@@ -278,8 +274,6 @@ def test_every_explorer_of_the_plane_is_in_a_chapter():
 def test_explorers_of_a_chapter_move(visit, book, name):
     found = visit(book.as_uri(), f"{name}.html")
     for toy in found.page.locator(".psl-toy").all():
-        toy.scroll_into_view_if_needed()
-        toy.locator("xpath=self::*[@data-ready='true']").wait_for()
         assert toy.locator(".psl-stage path").count()
     found.assert_quiet()
 
@@ -294,7 +288,6 @@ def test_words_of_the_text_follow_and_move_an_explorer(visit, folder):
     (folder / "tied.html").write_text(page, encoding="utf-8")
     found, explorer = visit(folder.as_uri(), "tied.html"), MAKERS["sampling"]()
     page = found.page
-    page.locator(".psl-toy[data-ready]").wait_for()
     reading, knob = page.locator(".psl-reading"), page.locator(".psl-knob input")
     assert reading.inner_text() == f"{explorer.numbers['covering_radius']:.4g}"
     assert knob.get_attribute("aria-label") == "samples n"
@@ -335,8 +328,6 @@ SEEN = [
 def test_what_was_seen_is_what_the_explorer_says(visit, book, name):
     found = visit(book.as_uri(), f"{name}.html")
     page, toy = found.page, found.page.locator(".psl-toy").last
-    toy.scroll_into_view_if_needed()
-    toy.locator("xpath=self::*[@data-ready='true']").wait_for()
     page.evaluate(
         "document.querySelectorAll('[data-locked]').forEach(({ dataset }) => delete dataset.locked)"
     )
