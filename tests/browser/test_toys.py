@@ -320,7 +320,7 @@ SEEN = [
     ("03_5_comparison", "nine steps", "Step 9 of 9: 95 samples, all 95 sides are in the Gabriel graph"),
     ("03_four_methods", "with 104 samples", "Sk2: 113 vertices, 112 edges, Betti (1, 0)"),
     ("03_four_methods", "n = 200", "Sk0: none, 1 side is not Delaunay"),
-    ("04_2_homotopy", "33 of 60 removals", "33 of 33 triangles are gone. No hat is left"),
+    ("04_2_homotopy", "33 removals", "33 of 33 triangles are gone. No hat is left"),
 ]
 
 
