@@ -78,6 +78,9 @@ class Balls(Explorer):
     words: ClassVar[dict[str, str]] = {
         "full": f"{MOST} balls are as many as can be moved by hand; remove one first.",
         "last": "One ball has to stay.",
+        "tangent": "Balls {i} and {j} touch without crossing, which appendix A leaves out: the skeleton "
+        "of the union would be cut there. Enlarge or shrink one of them a little.",
+        "crowded": "Too many of these balls nearly coincide, or meet in nearly one point; move one of them.",
         "ball": "ball {i}",
         "centre": "centre of ball {i}",
         "rim": "rim of ball {i}",
@@ -113,7 +116,7 @@ class Balls(Explorer):
         return Polyball(self._centers, self._radii)
 
     def add(self, center=None, radius: float | None = None) -> None:
-        """Add a ball, by default a small one in the middle of the board, and choose it.
+        """Add a ball, by default a small one near the middle of the board, and choose it.
 
         Raises
         ------
@@ -124,7 +127,9 @@ class Balls(Explorer):
         if len(self._radii) >= MOST:
             self.board.text = self.words["full"]
             return
-        center = ((xmin + xmax) / 2, (ymin + ymax) / 2) if center is None else center
+        if center is None:  # beside the last one that was added
+            aside = 0.06 * (ymax - ymin) * (len(self._radii) % 5 - 2)
+            center = ((xmin + xmax) / 2 + aside, (ymin + ymax) / 2 + aside)
         radius = 0.12 * (ymax - ymin) if radius is None else radius
         Y = Polyball([*self._centers, center], [*self._radii, radius])  # refuses what is no ball
         self._centers, self._radii = Y.centers.copy(), Y.radii.copy()
@@ -161,17 +166,19 @@ class Balls(Explorer):
         self._draw_boundary(Y)
         try:
             skeleton = Y.skeleton()
-        except PolyskelError:
+        except PolyskelError as error:
             board.draw("skeleton", "sk2", width=1.4, label="skeleton of the union")
             self.numbers = {}
-            raise  # its sentence is shown under the board
+            if not isinstance(error, TangentBallsError):
+                raise  # its sentence is shown under the board
+            i, j = min(np.sort(error.pairs, axis=1).tolist())  # numbered as on the board
+            raise TangentBallsError(self.words["tangent"].format(i=i + 1, j=j + 1), error.pairs) from None
         lines, dots = skeleton.segments(), skeleton.vertices
         board.draw("skeleton", "sk2", lines=lines, points=dots, width=1.4, label="skeleton of the union")
         self.tell(**ball_numbers(Y, skeleton))
 
     def given(self) -> dict[str, object]:
-        balls = {"centers": self._centers.tolist(), "radii": self._radii.tolist(), "most": MOST}
-        return balls | {"tangent": _tangent_sentence()}
+        return {"centers": self._centers.tolist(), "radii": self._radii.tolist(), "most": MOST}
 
     def _draw_boundary(self, Y: Polyball) -> None:
         """The balls, their union, its singular points and their Voronoi graph."""
@@ -229,15 +236,6 @@ def _voronoi_lines(points: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 def _ball_names(count: int) -> list[tuple[str, int]]:
     return [(Balls.words["ball"].format(i=i + 1), i) for i in range(count)]
-
-
-def _tangent_sentence() -> str:
-    """Why there is no skeleton where two balls touch, with places for their numbers."""
-    try:
-        Polyball([(0, 0), (2, 0)], [1, 1]).skeleton()
-    except TangentBallsError as error:
-        return str(error).replace("balls 0 and 1", "balls {i} and {j}")
-    raise AssertionError("two tangent balls were accepted")
 
 
 def balls(polyball: Polyball | None = None) -> Balls:

@@ -31,7 +31,8 @@ class Graphs(Explorer):
         "{number}.",
         "none": "none",
         "lost": "Samples {rest} and {last} are no triangle any more: a sample came into their ball.",
-        "in_line": "The samples are on one line, or two at one place: there is no triangle.",
+        "in_line": "All samples are on one line: there is no triangle.",
+        "twice": "Samples {i} and {j} are at one place; move one of them.",
     }
     live: ClassVar[dict[str, str]] = dict.fromkeys(_WORDS, "lines") | {"ball": "circles", "center": "points"}
 
@@ -98,11 +99,12 @@ class Graphs(Explorer):
         triples = np.sort(graph.simplices, axis=1)
         self._rows = np.lexsort(triples.T[::-1])
         triangles = [frozenset(corners) for corners in triples[self._rows].tolist()]
+        moved = slider.value != self._number  # by the reader's hand
         slider.max = len(triangles) - 1
         if slider.value < 0:
             return ""
         lost = ""
-        if slider.value == self._number:  # it was not the slider that moved
+        if not moved:
             if self._corners in triangles:
                 slider.value = triangles.index(self._corners)
             else:

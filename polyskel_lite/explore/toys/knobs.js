@@ -43,9 +43,15 @@ export class Knob {
   }
 
   set(value) {
-    if (this.kind === "slider") value = Math.min(Math.max(value, this.min), this.max);
+    if (this.kind === "slider") value = this.onStep(value);
     this.value = value;
     this.show();
+  }
+
+  /** The nearest value that the slider has. */
+  onStep(value) {
+    const { min, max, step } = this, steps = Math.round((Math.min(Math.max(value, min), max) - min) / step);
+    return Number(Math.min(min + steps * step, max).toPrecision(12));
   }
 
   /** Another end of the slider. */
@@ -64,7 +70,10 @@ export class Knob {
   show() {
     if (this.kind === "check") this.input.checked = this.value;
     if (this.kind === "choice") this.input.selectedIndex = this.options.findIndex(([, value]) => value === this.value);
-    if (this.kind === "slider") this.input.value = this.number.value = String(this.value);
+    if (this.kind === "slider") {
+      this.input.value = String(this.value);
+      this.number.value = String(Number(this.value.toPrecision(6)));
+    }
   }
 }
 

@@ -17,7 +17,9 @@ export class Balls extends Toy {
     const { ball } = this.controls, [left, bottom, right, top] = this.view.box;
     if (name === "add") {
       if (this.balls.length >= this.given.most) { this.say(this.words.full); return false; }
-      this.balls.push({ c: [(left + right) / 2, (bottom + top) / 2], r: 0.12 * (top - bottom), angle: Math.PI / 4 });
+      const aside = 0.06 * (top - bottom) * ((this.balls.length % 5) - 2); // beside the last one that was added
+      const c = [(left + right) / 2 + aside, (bottom + top) / 2 + aside];
+      this.balls.push({ c, r: 0.12 * (top - bottom), angle: Math.PI / 4 });
       this.choose(this.balls.length - 1);
     } else if (name === "remove") {
       if (this.balls.length === 1) { this.say(this.words.last); return false; }
@@ -47,8 +49,9 @@ export class Balls extends Toy {
     this.draw("singular", { points: found.singular });
     if (found.refused) {
       this.draw("skeleton", {});
-      const [i, j] = found.touching[0];
-      this.say(fill(this.given.tangent, { i, j }));
+      const pairs = found.touching.map((pair) => pair.map((k) => k + 1).sort((a, b) => a - b));
+      const [first] = pairs.sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+      this.say(first ? fill(this.words.tangent, { i: first[0], j: first[1] }) : this.words.crowded);
       return;
     }
     this.draw("skeleton", { lines: found.segments, points: found.dots });

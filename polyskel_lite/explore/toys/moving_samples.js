@@ -6,7 +6,13 @@ import { fill, Toy } from "./toy.js";
 export class Graphs extends Toy {
   redraw() {
     const t = delaunay(this.handles);
-    if (!t) { this.say(this.words.in_line); return; }
+    if (!t) {
+      for (const name of Object.keys(this.pens)) this.draw(name, {});
+      const places = this.handles.map(String), twice = places.findIndex((place, k) => places.indexOf(place) < k);
+      const [i, j] = [places.indexOf(places[twice]), twice];
+      this.say(twice < 0 ? this.words.in_line : fill(this.words.twice, { i, j }));
+      return;
+    }
     const table = facetTable(t), balls = circumballs(t), gabriel = gabrielMask(t, table), { points } = t;
     const remark = this.follow(t);
     const sides = (rows) => rows.map(({ ends: [a, b] }) => [points[a], points[b]]);
@@ -37,10 +43,11 @@ export class Graphs extends Toy {
     const slider = this.controls.triangle;
     this.rows = simplices.map((corners, row) => ({ row, corners: [...corners].sort((a, b) => a - b) }));
     this.rows.sort(({ corners: a }, { corners: b }) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2]);
+    const moved = slider.value !== this.number; // by the reader's hand
     slider.reach(this.rows.length - 1);
     if (slider.value < 0) return "";
     let lost = "";
-    if (slider.value === this.number) { // it was not the slider that moved
+    if (!moved) {
       const now = this.rows.findIndex(({ corners }) => String(corners) === String(this.corners));
       if (now >= 0) slider.set(now);
       else lost = fill(this.words.lost, { rest: this.corners.slice(0, -1).join(", "), last: this.corners.at(-1) });

@@ -17,8 +17,8 @@ function tie(root, toy) {
   const open = () => !("locked" in root.dataset);
   for (const words of tied(root, "state")) {
     const onclick = () => {
-      if (open()) toy.set(JSON.parse(words.dataset.to));
-      root.scrollIntoView({ block: "nearest" });
+      if (open()) toy.set(JSON.parse(words.dataset.to), true);
+      (open() ? root : root.querySelector(".psl-locked") ?? root).scrollIntoView({ block: "nearest" });
     };
     const title = "Show this in the picture";
     words.replaceChildren(make("button", { type: "button", title, onclick }, words.textContent));
@@ -29,7 +29,9 @@ function tie(root, toy) {
     Object.assign(input, { min, max, step });
     input.addEventListener("input", () => {
       if (open() && input.value !== "") toy.set({ [name]: Number(input.value) });
+      if (!open()) root.querySelector(".psl-locked")?.scrollIntoView({ block: "nearest" });
     });
+    input.addEventListener("change", () => { input.value = String(toy.value(name)); }); // what the slider made of it
     words.replaceChildren(input);
     return [name, input];
   });

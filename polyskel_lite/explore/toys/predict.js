@@ -4,9 +4,9 @@
 import { make } from "../skeleton_viewer/dom.js";
 
 const LOCKABLE = ".psl-controls, .psl-knobs, .psl-handle, canvas";
-const CONTROL = ":is(.psl-controls, .psl-knobs) :is(input, select, button), .psl-handle";
 const MOVING = ".psl-viewer, .psl-toy, .psl-tape";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const SEEN = /^(What you saw|Reading)\b/; // how a text begins that tells what the picture shows
 const locks = new Map(); // picture -> the questions that it waits for, and what opens it
 
 /** The picture that a question is about: the next one in its section, and none beyond another question. */
@@ -27,9 +27,18 @@ function withParts(picture, act) {
   return () => seen.disconnect();
 }
 
+/** The text below a picture that gives the answer away. */
+function readingOf(picture) {
+  let next = picture.closest(".cell");
+  do next = next?.nextElementSibling; while (next && !next.matches("p, section, .cell, .psl-predict"));
+  return next?.matches("p") && SEEN.test(next.querySelector("strong")?.textContent ?? "") ? next : null;
+}
+
 function lock(picture, asked) {
   if (locks.has(picture)) return locks.get(picture).questions.add(asked);
-  const note = make("p", { class: "psl-locked" }, make("a", { href: `#${asked.id}` }, "Answer the question above"), " to open the controls.");
+  const link = make("a", { href: `#${asked.id}` }, "Answer the question above"), reading = readingOf(picture);
+  const note = make("p", { class: "psl-locked" }, link, " to open the controls.");
+  reading?.classList.add("psl-told");
   const inert = (on) => { for (const one of picture.querySelectorAll(LOCKABLE)) one.inert = on; };
   const stop = withParts(picture, () => {
     inert(true);
@@ -37,15 +46,22 @@ function lock(picture, asked) {
     if (!controls && !note.isConnected) picture.prepend(note);
     if (controls && note.nextElementSibling !== controls) controls.before(note);
   });
-  const open = () => { stop(); note.remove(); delete picture.dataset.locked; inert(false); };
+  const open = () => {
+    stop();
+    note.remove();
+    reading?.classList.remove("psl-told");
+    delete picture.dataset.locked;
+    inert(false);
+  };
   picture.dataset.locked = "true";
-  return locks.set(picture, { questions: new Set([asked]), open });
+  return locks.set(picture, { questions: new Set([asked]), link, open });
 }
 
 function unlock(picture, asked) {
-  const { questions, open } = locks.get(picture);
+  const { questions, link, open } = locks.get(picture);
   questions.delete(asked);
-  if (!questions.size) open();
+  if (questions.size) link.href = `#${[...questions][0].id}`;
+  else open();
 }
 
 /** A ring in the picture that stands where the reader clicked, and goes where the arrow keys say. */
@@ -105,7 +121,7 @@ function ask(asked) {
   const [x, y, tolerance] = (place ?? "").split(" ").map(Number);
   const set = place ? make("p", {}, "Click in the picture, or move the ring there with the arrow keys.") : choice(asked, asked.querySelector("ul"));
   const told = make("p", { class: "psl-said", role: "status" });
-  const button = make("button", { type: "button" }, "Lock it in"), skip = make("button", { type: "button" }, "Open without one");
+  const button = make("button", { type: "button" }, "Lock it in"), skip = make("button", { type: "button" }, picture ? "Open without one" : "Show the answer");
   const bar = make("div", {}, button, skip);
   let mark = null;
   if (picture) lock(picture, asked);
@@ -125,8 +141,7 @@ function ask(asked) {
       summary.textContent = "Verdict";
       folded.querySelector("p").prepend(make("strong", {}, verdict), " ");
     }
-    const control = picture && !picture.dataset.locked && picture.querySelector(CONTROL);
-    (control || summary).focus({ preventScroll: true });
+    summary.focus({ preventScroll: true }); // the verdict comes before the controls, and is in sight
   };
   button.addEventListener("click", () => {
     const chosen = place ? mark?.moved : set.querySelector("input:checked");

@@ -30,8 +30,7 @@ class PageModel {
   // The board in JupyterLab waits for Python's answer to a move; here it comes at once.
   send({ handles, serial }) {
     this.data.handles = handles;
-    this.moved();
-    this.tell("msg:custom", { type: "answer", serial });
+    try { this.moved(); } finally { this.tell("msg:custom", { type: "answer", serial }); }
   }
 }
 
@@ -39,7 +38,8 @@ class PageModel {
 export function said(value, digits = 4) {
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (Array.isArray(value)) return `(${value.map((entry) => said(entry)).join(", ")})`;
-  if (typeof value !== "number" || Number.isInteger(value)) return String(value);
+  // A count is never as large as that: then it is a length without a fraction.
+  if (typeof value !== "number" || (Number.isInteger(value) && Math.abs(value) < 1e5)) return String(value);
   const rounded = Number(value.toPrecision(digits));
   const power = Math.floor(Math.log10(Math.abs(rounded)));
   if (power >= -4 && power < digits) return String(rounded);
@@ -63,6 +63,8 @@ export class Toy {
     for (const about of told.controls) {
       this.controls[about.name] = new Knob(about, ({ name }) => { if (this.pressed(name) !== false) this.update(); });
     }
+    const valued = Object.values(this.controls).filter(({ value }) => value !== undefined);
+    this.began = Object.fromEntries(valued.map(({ name, value }) => [name, value]));
     for (const [name, picture] of Object.entries(this.still)) this.show(name, !this.hidden.has(name), picture);
   }
 
@@ -76,8 +78,9 @@ export class Toy {
   /** Hears of a control, before the picture is drawn; false: it stays as it is. */
   pressed() {}
 
-  /** Set several controls and draw once. */
-  set(values) {
+  /** Set several controls and draw once; `others`: those not named go back to where they began. */
+  set(values, others = false) {
+    if (others) values = { ...this.began, ...values };
     for (const [name, value] of Object.entries(values)) this.controls[name].set(value);
     this.update();
   }
