@@ -44,6 +44,18 @@ def test_samples_of_the_horse():
     assert_said("02_1_shapes", f"{radius[0]:.4f} at n = 100 and {radius[1]:.4f} at n = 200")
 
 
+def test_the_head_of_the_horse_goes_before_the_hooves():
+    h = psl.hierarchy(psl.conform(psl.datasets.load("horse").resample(150)))
+    assert branches(h, 2.85, 2.9) == [6, 5]
+    tips = [node for _, node in h.branches(2.85 * np.pi).nodes(data=True) if node["kind"] == "end"]
+    head = max(tips, key=lambda tip: tip["pos"][0])
+    hooves = [tip for tip in tips if tip["pos"][1] < -0.2]
+    assert len(hooves) == 4
+    assert head["radius"] > 3 * max(tip["radius"] for tip in hooves)
+    assert head["pos"] not in [node["pos"] for _, node in h.branches(2.9 * np.pi).nodes(data=True)]
+    assert_said("index", "Near $2.9\\pi$ the head goes as well", "more than three times as large")
+
+
 def test_noise_of_the_sampling_explorer():
     smooth = explore.sampling(psl.datasets.load("horse"), n=200)
     before = ends(psl.sk2(smooth.shape, smooth.shape.sample(200)))
