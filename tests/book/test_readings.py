@@ -165,6 +165,25 @@ def test_vertices_outside_the_polygon():
     assert_said("03_four_methods", f"with {a} samples {x} vertices", f"with {b} {y}, with {c} {z}")
 
 
+def test_side_that_is_not_delaunay():
+    X = psl.datasets.load("horse")
+    missing = [len(psl.missing_facets(X.resample(200, start=start))) for start in (0.7, 0)]
+    assert missing == [1, 0]
+    assert_said("03_four_methods", "at n = 200 with shift 0.7 a single side", "no shift all sides are")
+
+
+def test_neck_that_goes_before_the_legs():
+    h = psl.hierarchy(psl.conform(psl.datasets.load("horse").resample(150)))
+    in_front = []
+    for turns in (2.87, 2.91):
+        graph = h.branches(turns * np.pi)
+        ends = np.array([data["pos"] for node, data in graph.nodes(data=True) if graph.degree(node) == 1])
+        in_front.append(int(((ends > (0.15, 0)).all(axis=1)).sum()))  # above the legs
+        assert (ends[:, 1] < -0.2).sum() == 4
+    assert in_front == [1, 0]
+    assert_said("index", "At $2.9\\pi$ the branch of neck and head has gone, before those of the legs")
+
+
 def test_size_of_the_lake():
     X = psl.datasets.load("lake")
     for n in (100, 200):
@@ -290,3 +309,13 @@ def test_where_the_two_answers_for_a_part():
     assert worth_of_the_tip(44) > np.pi > worth_of_the_tip(45.5)
     assert_said("explore", "part at about $45°$, a little more if the threshold is lower")
     assert worth_of_the_tip(50) > 0.9 * np.pi > worth_of_the_tip(53)
+
+
+def test_solution_that_no_cell_runs():
+    """Exercise ex-claims-code: its solution is shown in a folded box, as text."""
+    cells = json.loads((NOTEBOOKS / "claims.ipynb").read_text(encoding="utf-8"))["cells"]
+    text = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown")
+    code = re.search(r":label: sol-claims-code.*?```python\n(.*?)```", text, re.S)[1]
+    names = {"np": np, "psl": psl}
+    exec(code, names)
+    assert names["check"]() == "holds"
