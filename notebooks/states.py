@@ -2,8 +2,9 @@
 
 ``{state}`n = 100 <n=100, noise=0.2>` `` sets these controls, and the others as at first: a button.
 ``{knob}`50 <n>` `` is the control itself, a number to type or to step.
-``{reading}`0.0445 <covering_radius>` `` is a number of the line under the picture, and follows it. Without JavaScript they are the words alone. The
-book is built by Sphinx alone: nothing of the library is used here.
+``{reading}`0.0445 <covering_radius>` `` is a number of the line under the picture, and follows it.
+Without JavaScript they are the words alone. The book is built by Sphinx alone: nothing of the library is
+used here.
 """
 
 import json
