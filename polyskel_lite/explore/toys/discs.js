@@ -8,7 +8,9 @@ const TURN = 2 * Math.PI;
 // As in polyballs.pairs: what rounding may change, what a ball is believed to, which points are on a circle.
 const ROUNDING = 2 ** -49, SWALLOWED = 1e-10, PRECISION = 1e-12, WORST = 1e-6, ON = 1e-9;
 // Voronoi vertices nearer than this share of their radius are one; so much may a vector miss a cone.
-const SAME = 1e-9, CONE = 1e-9;
+const SAME = 1e-9, CONE = 1e-9, FLAT = 1e-8;
+// If rounding spoils the skeleton, discs that differ by less than such shares count as one.
+const ALIKE = [0, 1e-8, 1e-7, 1e-6, 1e-5], CLEAR = 1e-6;
 
 const rounding = (...balls) => ROUNDING * balls.reduce((sum, { c, r }) => sum + extentOf([c]) + r, 0);
 const believed = (a, b) => PRECISION * Math.min(a.r, b.r) + rounding(a, b);
@@ -67,15 +69,16 @@ function uncovered(covers) {
   return arcs.sort((a, b) => a.start - b.start);
 }
 
-/** The first by `better` of each group of points linked by distances up to `reach(i, j)`. */
+/** Groups of points linked by distances up to `reach(i, j)`, the first one by `better` in front. */
 function merged(points, reach, better) {
   const near = ([i, j]) => distanceTo(points[i], points[j]) <= reach(i, j);
   const groups = groupsOf(points.length, pairsOf([...points.keys()]).filter(near));
-  const best = new Map();
+  const found = new Map();
   groups.forEach((group, k) => {
-    if (!best.has(group) || better(k, best.get(group))) best.set(group, k);
+    const others = found.get(group) ?? [];
+    found.set(group, others.length && !better(k, others[0]) ? [...others, k] : [k, ...others]);
   });
-  return [...best.values()].sort((i, j) => i - j).map((k) => points[k]);
+  return [...found.values()].sort(([i], [j]) => i - j);
 }
 
 /** Where two discs that touch from outside do so on the boundary, or null. */
@@ -119,7 +122,8 @@ export function union(balls) {
     const p = contact(balls, rows, i, j);
     if (p) { touching.push([i, j]); ends.push(p); errors.push(0); }
   }
-  const singular = merged(ends, (i, j) => errors[i] + errors[j], (i, j) => errors[i] < errors[j]);
+  const groups = merged(ends, (i, j) => errors[i] + errors[j], (i, j) => errors[i] < errors[j]);
+  const singular = groups.map(([k]) => ends[k]);
   return { rows, arcs, singular, touching, area: areaOf(balls, arcs) };
 }
 
@@ -163,7 +167,7 @@ export function disconnected(balls, kept) {
 
 /** Pairs of generating discs that cross on the boundary and whose common part meets no third one (definition 3). */
 export function quasiDisconnected(balls, kept, { rows, singular }) {
-  const { through } = gathered(balls, rows, singular);
+  const through = singular.map((p) => discsAt(balls, rows, p));
   return pairsOf(kept).filter(([i, j]) => through.filter((on) => on.includes(i) && on.includes(j)).length > 1)
     .filter(([i, j]) => kept.every((k) => k === i || k === j ||
       distanceToLens(balls[k].c, balls[i], balls[j]) > balls[k].r * (1 + PRECISION)));
@@ -183,24 +187,38 @@ function distanceToLens(p, a, b) {
 
 // --- the skeleton ------------------------------------------------------------------------------------
 
+/** The discs that a point is on, which may be off by a length. */
+const discsAt = (balls, rows, p, off = 0) =>
+  rows.filter((i) => distanceTo(p, balls[i].c) <= balls[i].r * (1 + ON) + rounding(balls[i]) + off);
+
 /** Singular points so near to each other that they are one, and the discs that each is on. */
 function gathered(balls, rows, corners) {
-  const on = (p) => rows.filter((i) => distanceTo(p, balls[i].c) <= balls[i].r * (1 + ON) + rounding(balls[i]));
-  const discs = corners.map(on), least = discs.map((some) => Math.min(...some.map((i) => balls[i].r)));
+  const discs = corners.map((p) => discsAt(balls, rows, p));
+  const least = discs.map((some) => Math.min(...some.map((i) => balls[i].r)));
   const reach = (i, j) => ON * Math.min(least[i], least[j]);
-  const singular = merged(corners, reach, (i, j) => discs[i].length > discs[j].length);
-  return { singular, through: singular.map(on) };
+  const groups = merged(corners, reach, (i, j) => discs[i].length > discs[j].length);
+  const spread = ([k, ...others]) => Math.max(0, ...others.map((other) => distanceTo(corners[k], corners[other])));
+  const through = groups.map((group) => discsAt(balls, rows, corners[group[0]], 2 * spread(group)));
+  return { singular: groups.map(([k]) => corners[k]), through };
+}
+
+/** The lesser factor of the vector v as a combination of u and w, not a number if these are in line. */
+function leastShare(v, u, w) {
+  const d = cross(u, w);
+  return Math.abs(d) > PRECISION ? Math.min(cross(v, w) / d, cross(u, v) / d) : NaN;
 }
 
 /** Whether a vector is a positive combination of others, or nearly. */
-function inCone(vector, ways) {
-  const v = unitOf(vector), units = ways.map(unitOf);
+function inCone(v, ways) {
   const along = (u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE;
-  const among = (u, w) => {
-    const d = cross(u, w);
-    return Math.abs(d) > PRECISION && cross(v, w) / d >= 0 && cross(u, v) / d >= 0;
-  };
-  return units.some(along) || pairsOf(units).some(([u, w]) => among(u, w));
+  return ways.some(along) || pairsOf(ways).some(([u, w]) => leastShare(v, u, w) >= 0);
+}
+
+/** Whether a vector is in a cone, of [vector, its ways] that should agree: the clearest one decides. */
+function inCones(cones) {
+  const shares = cones.map(([v, ways]) => (ways.length === 2 ? leastShare(v, ...ways) : NaN));
+  const clearest = shares.reduce((most, share) => (Math.abs(share) > Math.abs(most) ? share : most), 0);
+  return Math.abs(clearest) < FLAT ? cones.every((cone) => inCone(...cone)) : clearest > 0;
 }
 
 /** Edges between Delaunay neighbours: [a, b, its triangles]. On a line, or of two points, there are no triangles. */
@@ -222,20 +240,73 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
     const known = places.findIndex((p, i) => distanceTo(p, center) <= SAME * r && Math.abs(sizes[i] - r) <= SAME * r);
     if (known >= 0) return known;
     // The ball is in the union iff at each singular point its centre is between those of the discs there.
-    const seen = (v, place) => minus(place, singular[v]);
-    const inside = corners.every((v) => inCone(seen(v, center), through[v].map((i) => seen(v, balls[i].c))));
+    const seen = (v, place) => unitOf(minus(place, singular[v]));
+    const inside = inCones(corners.map((v) => [seen(v, center), through[v].map((i) => seen(v, balls[i].c))]));
     return inside ? (places.push(center), sizes.push(r)) - 1 : -1;
   });
   const edges = new Map();
   for (const [a, b, sides] of graph.rows) {
-    const across = minus(singular[b], singular[a]), way = [-across[1], across[0]];
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
-    ends.sort((u, v) => dot(way, places[u]) - dot(way, places[v]));
+    // They are on a line, which says more of its direction than two points that are nearly one.
+    const middle = ends.reduce(([x, y], v) => [x + places[v][0] / ends.length, y + places[v][1] / ends.length], [0, 0]);
+    const from = (v) => minus(places[v], middle), far = ends.map(from).sort((u, v) => dot(v, v) - dot(u, u))[0];
+    ends.sort((u, v) => dot(far, from(u)) - dot(far, from(v)));
     ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
   const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
   return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
+}
+
+// --- whether rounding spoils it ----------------------------------------------------------------------
+
+/** Where some discs come nearest to a common point: the least that the largest of their powers there can be. */
+function levelOf(discs) {
+  const power = (p, { c, r }) => dot(minus(p, c), minus(p, c)) - r * r, [a, b, third] = discs;
+  let best = -Infinity;
+  for (const [k, l] of pairsOf(discs)) {
+    const d = distanceTo(k.c, l.c), share = (1 + ((k.r - l.r) / d) * ((k.r + l.r) / d)) / 2;
+    const p = between(k.c, l.c, Math.min(Math.max(share, 0), 1)), level = Math.max(power(p, k), power(p, l));
+    // Two discs decide if the others have less power there.
+    if (discs.every((disc) => power(p, disc) <= level + PRECISION * disc.r ** 2)) return level;
+    best = Math.max(best, level);
+  }
+  const u = minus(b.c, a.c), v = minus(third.c, a.c), twice = 2 * cross(u, v);
+  const f = dot(u, u) - b.r ** 2 + a.r ** 2, g = dot(v, v) - third.r ** 2 + a.r ** 2;
+  const x = (v[1] * f - u[1] * g) / twice, y = (u[0] * g - v[0] * f) / twice;
+  return Math.max(best, x * x + y * y - a.r ** 2);
+}
+
+/** Betti numbers of a union by which two and three discs have a point in common; of powers larger by a share. */
+function homotopy(balls, share) {
+  const meets = (discs) => levelOf(discs) < share * Math.min(...discs.map(({ r }) => r * r));
+  const numbers = [...balls.keys()], pairs = pairsOf(numbers).filter(([i, j]) => meets([balls[i], balls[j]]));
+  const edge = new Map(pairs.map(([i, j], k) => [edgeKey(i, j), 1n << BigInt(k)])), reduced = new Map();
+  for (const [i, j] of pairs) {
+    for (let k = j + 1; k < balls.length; k += 1) {
+      const others = [edge.get(edgeKey(i, k)), edge.get(edgeKey(j, k))];
+      if (!others[0] || !others[1] || !meets([balls[i], balls[j], balls[k]])) continue;
+      // A row of the boundary matrix modulo 2: what is left of it fills one more loop.
+      let loop = edge.get(edgeKey(i, j)) ^ others[0] ^ others[1], top = loop.toString(2).length;
+      while (reduced.has(top)) { loop ^= reduced.get(top); top = loop && loop.toString(2).length; }
+      if (loop) reduced.set(top, loop);
+    }
+  }
+  const [pieces, loops] = bettiOf(balls.length, pairs);
+  return `${[pieces, loops - reduced.size]}`;
+}
+
+/** Nearly the same union: one ball for all that differ from it by less than a share of its radius. */
+function alike(balls, share) {
+  let left = [...balls].sort((a, b) => b.r - a.r);
+  const found = [];
+  while (left.length) {
+    const [{ c, r }] = left, reach = (ball) => distanceTo(c, ball.c) + ball.r;
+    const away = ({ c: p, r: q }) => distanceTo(c, p) + r - q > share * r;
+    found.push({ c, r: Math.max(...left.filter((ball) => !away(ball)).map(reach)) });
+    left = left.filter(away);
+  }
+  return found;
 }
 
 /**
@@ -250,9 +321,18 @@ export function ballSkeleton(balls) {
   };
   const none = { ...found, segments: [], dots: [], betti: null };
   if (boundary.touching.length) return { ...none, refused: "tangent" };
-  const { dots, edges } = skeletonOf(balls, boundary), betti = bettiOf(dots.length, edges);
-  // Discs may miss each other by no more than rounding: the skeleton must be like that of slightly larger ones.
-  const grown = balls.map(({ c, r }) => ({ c, r: r * Math.sqrt(1 + ON) })), other = skeletonOf(grown, union(grown));
-  if (bettiOf(other.dots.length, other.edges).some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
-  return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
+  const different = boundary.rows.map((i) => balls[i]);
+  const clear = alike(different, CLEAR), trues = [-ON, ON].map((share) => homotopy(clear, share));
+  let tried = 0;
+  for (const share of ALIKE) {
+    const like = share ? alike(different, share) : different, around = share ? union(like) : boundary;
+    if (like.length === tried || around.touching.length) continue;
+    tried = like.length;
+    const { dots, edges } = skeletonOf(share ? like : balls, around), betti = bettiOf(dots.length, edges), key = `${betti}`;
+    const steady = share && homotopy(like, -4 * share) === homotopy(like, 4 * share);
+    if (key === homotopy(like, ON) && (trues.includes(key) || steady)) {
+      return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
+    }
+  }
+  return { ...none, refused: "rounding" };
 }
