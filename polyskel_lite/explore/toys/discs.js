@@ -9,8 +9,6 @@ const TURN = 2 * Math.PI;
 const ROUNDING = 2 ** -49, SWALLOWED = 1e-10, PRECISION = 1e-12, WORST = 1e-6, ON = 1e-9;
 // Voronoi vertices nearer than this share of their radius are one; so much may a vector miss a cone.
 const SAME = 1e-9, CONE = 1e-9, FLAT = 1e-8;
-// If rounding spoils the skeleton, discs that differ by less than such shares count as one.
-const ALIKE = [0, 1e-8, 1e-7, 1e-6, 1e-5], CLEAR = 1e-6;
 
 const rounding = (...balls) => ROUNDING * balls.reduce((sum, { c, r }) => sum + extentOf([c]) + r, 0);
 const believed = (a, b) => PRECISION * Math.min(a.r, b.r) + rounding(a, b);
@@ -102,14 +100,14 @@ export function union(balls) {
   const gone = new Set(pairs.flatMap(([i, j]) => swallowed(balls, i, j)));
   const left = pairs.filter(([i, j]) => !gone.has(i) && !gone.has(j));
   const crosses = ([i, j]) => gap(balls[i], balls[j]) < -believed(balls[i], balls[j]);
-  const covers = new Map(rows.filter((i) => !gone.has(i)).map((i) => [i, []]));
-  for (const [i, j] of left.filter(crosses)) {
-    covers.get(i).push(cover(balls[i], balls[j]));
-    covers.get(j).push(cover(balls[j], balls[i]));
-  }
+  // Of what is within rounding the first part around a circle decides: the library's order, small discs first.
+  const octave = (i) => Math.floor(Math.log2(balls[i].r)), kept = rows.filter((i) => !gone.has(i));
+  const bySize = [...kept].sort((i, j) => octave(i) - octave(j));
+  const covers = kept.map((i) => [...bySize.filter((j) => j > i), ...bySize.filter((j) => j < i)]
+    .filter((j) => crosses([Math.min(i, j), Math.max(i, j)])).map((j) => cover(balls[i], balls[j])));
   const arcs = [], ends = [], errors = [], touching = [];
-  for (const [i, parts] of covers) {
-    for (const arc of uncovered(parts)) {
+  kept.forEach((i, row) => {
+    for (const arc of uncovered(covers[row])) {
       arcs.push([i, arc.start, arc.end]);
       if (arc.end - arc.start < TURN) [arc.start, arc.end].forEach((angle, k) => {
         const p = onCircle(balls[i], angle);
@@ -117,7 +115,7 @@ export function union(balls) {
         errors.push(arc.errors[k] * balls[i].r + ROUNDING * (extentOf([p]) + balls[i].r));
       });
     }
-  }
+  });
   for (const [i, j] of left.filter((pair) => !crosses(pair))) {
     const p = contact(balls, rows, i, j);
     if (p) { touching.push([i, j]); ends.push(p); errors.push(0); }
@@ -202,23 +200,21 @@ function gathered(balls, rows, corners) {
   return { singular: groups.map(([k]) => corners[k]), through };
 }
 
-/** The lesser factor of the vector v as a combination of u and w, not a number if these are in line. */
-function leastShare(v, u, w) {
+/** The lesser factor of v as a combination of two vectors, not a number if these are in line. */
+function leastShare(v, [u, w]) {
   const d = cross(u, w);
   return Math.abs(d) > PRECISION ? Math.min(cross(v, w) / d, cross(u, v) / d) : NaN;
 }
 
-/** Whether a vector is a positive combination of others, or nearly. */
-function inCone(v, ways) {
-  const along = (u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE;
-  return ways.some(along) || pairsOf(ways).some(([u, w]) => leastShare(v, u, w) >= 0);
-}
+/** Whether v is a positive combination of others, or nearly. */
+const inCone = ([v, ways]) => ways.some((u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE) ||
+  pairsOf(ways).some((two) => leastShare(v, two) >= 0);
 
-/** Whether a vector is in a cone, of [vector, its ways] that should agree: the clearest one decides. */
+/** Whether v is in its cone, of some [v, ways] that should agree: the clearest one decides. */
 function inCones(cones) {
-  const shares = cones.map(([v, ways]) => (ways.length === 2 ? leastShare(v, ...ways) : NaN));
+  const shares = cones.map(([v, ways]) => (ways.length === 2 ? leastShare(v, ways) : NaN));
   const clearest = shares.reduce((most, share) => (Math.abs(share) > Math.abs(most) ? share : most), 0);
-  return Math.abs(clearest) < FLAT ? cones.every((cone) => inCone(...cone)) : clearest > 0;
+  return Math.abs(clearest) < FLAT ? cones.every(inCone) : clearest > 0;
 }
 
 /** Edges between Delaunay neighbours: [a, b, its triangles]. On a line, or of two points, there are no triangles. */
@@ -249,64 +245,34 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
     // They are on a line, which says more of its direction than two points that are nearly one.
-    const middle = ends.reduce(([x, y], v) => [x + places[v][0] / ends.length, y + places[v][1] / ends.length], [0, 0]);
-    const from = (v) => minus(places[v], middle), far = ends.map(from).sort((u, v) => dot(v, v) - dot(u, u))[0];
-    ends.sort((u, v) => dot(far, from(u)) - dot(far, from(v)));
+    if (ends.length < 2) continue;
+    const [first] = ends, from = (v) => minus(places[v], places[first]), far = (v) => dot(from(v), from(v));
+    const way = from([...ends].sort((u, v) => far(v) - far(u))[0]);
+    ends.sort((u, v) => dot(way, from(u)) - dot(way, from(v)));
     ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
   const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
   return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
 }
 
-// --- whether rounding spoils it ----------------------------------------------------------------------
-
-/** Where some discs come nearest to a common point: the least that the largest of their powers there can be. */
-function levelOf(discs) {
-  const power = (p, { c, r }) => dot(minus(p, c), minus(p, c)) - r * r, [a, b, third] = discs;
-  let best = -Infinity;
-  for (const [k, l] of pairsOf(discs)) {
-    const d = distanceTo(k.c, l.c), share = (1 + ((k.r - l.r) / d) * ((k.r + l.r) / d)) / 2;
-    const p = between(k.c, l.c, Math.min(Math.max(share, 0), 1)), level = Math.max(power(p, k), power(p, l));
-    // Two discs decide if the others have less power there.
-    if (discs.every((disc) => power(p, disc) <= level + PRECISION * disc.r ** 2)) return level;
-    best = Math.max(best, level);
-  }
-  const u = minus(b.c, a.c), v = minus(third.c, a.c), twice = 2 * cross(u, v);
-  const f = dot(u, u) - b.r ** 2 + a.r ** 2, g = dot(v, v) - third.r ** 2 + a.r ** 2;
-  const x = (v[1] * f - u[1] * g) / twice, y = (u[0] * g - v[0] * f) / twice;
-  return Math.max(best, x * x + y * y - a.r ** 2);
-}
-
-/** Betti numbers of a union by which two and three discs have a point in common; of powers larger by a share. */
-function homotopy(balls, share) {
-  const meets = (discs) => levelOf(discs) < share * Math.min(...discs.map(({ r }) => r * r));
-  const numbers = [...balls.keys()], pairs = pairsOf(numbers).filter(([i, j]) => meets([balls[i], balls[j]]));
-  const edge = new Map(pairs.map(([i, j], k) => [edgeKey(i, j), 1n << BigInt(k)])), reduced = new Map();
+/** The Betti numbers of slightly larger discs by which two and three of them meet: rounding cannot change these. */
+function homotopy(balls) {
+  const filled = [], rows = [...balls.keys()], bit = (i, j) => 1n << BigInt(i * balls.length + j);
+  const meet = (...some) => {
+    const more = ON * Math.min(...some.map((i) => balls[i].r ** 2));
+    const [a, b, third] = some.map((i) => ({ c: balls[i].c, r: Math.sqrt(balls[i].r ** 2 + more) }));
+    return third ? distanceToLens(third.c, a, b) <= third.r : gap(a, b) <= 0;
+  };
+  const pairs = pairsOf(rows).filter((pair) => meet(...pair)), [pieces, loops] = bettiOf(rows.length, pairs);
   for (const [i, j] of pairs) {
-    for (let k = j + 1; k < balls.length; k += 1) {
-      const others = [edge.get(edgeKey(i, k)), edge.get(edgeKey(j, k))];
-      if (!others[0] || !others[1] || !meets([balls[i], balls[j], balls[k]])) continue;
-      // A row of the boundary matrix modulo 2: what is left of it fills one more loop.
-      let loop = edge.get(edgeKey(i, j)) ^ others[0] ^ others[1], top = loop.toString(2).length;
-      while (reduced.has(top)) { loop ^= reduced.get(top); top = loop && loop.toString(2).length; }
-      if (loop) reduced.set(top, loop);
+    for (const k of rows.slice(j + 1)) {
+      if (filled.length === loops || !meet(i, j, k)) continue;
+      // Each three that meet fill a loop, unless it is a sum, modulo 2, of ones that are filled.
+      const left = filled.reduce((sum, loop) => ((sum ^ loop) < sum ? sum ^ loop : sum), bit(i, j) ^ bit(i, k) ^ bit(j, k));
+      if (left) filled.push(left);
     }
   }
-  const [pieces, loops] = bettiOf(balls.length, pairs);
-  return `${[pieces, loops - reduced.size]}`;
-}
-
-/** Nearly the same union: one ball for all that differ from it by less than a share of its radius. */
-function alike(balls, share) {
-  let left = [...balls].sort((a, b) => b.r - a.r);
-  const found = [];
-  while (left.length) {
-    const [{ c, r }] = left, reach = (ball) => distanceTo(c, ball.c) + ball.r;
-    const away = ({ c: p, r: q }) => distanceTo(c, p) + r - q > share * r;
-    found.push({ c, r: Math.max(...left.filter((ball) => !away(ball)).map(reach)) });
-    left = left.filter(away);
-  }
-  return found;
+  return [pieces, loops - filled.length];
 }
 
 /**
@@ -321,18 +287,8 @@ export function ballSkeleton(balls) {
   };
   const none = { ...found, segments: [], dots: [], betti: null };
   if (boundary.touching.length) return { ...none, refused: "tangent" };
-  const different = boundary.rows.map((i) => balls[i]);
-  const clear = alike(different, CLEAR), trues = [-ON, ON].map((share) => homotopy(clear, share));
-  let tried = 0;
-  for (const share of ALIKE) {
-    const like = share ? alike(different, share) : different, around = share ? union(like) : boundary;
-    if (like.length === tried || around.touching.length) continue;
-    tried = like.length;
-    const { dots, edges } = skeletonOf(share ? like : balls, around), betti = bettiOf(dots.length, edges), key = `${betti}`;
-    const steady = share && homotopy(like, -4 * share) === homotopy(like, 4 * share);
-    if (key === homotopy(like, ON) && (trues.includes(key) || steady)) {
-      return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
-    }
-  }
-  return { ...none, refused: "rounding" };
+  const { dots, edges } = skeletonOf(balls, boundary), betti = bettiOf(dots.length, edges);
+  const right = homotopy(boundary.rows.map((i) => balls[i]));
+  if (right.some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
+  return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
 }
