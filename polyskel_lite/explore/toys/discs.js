@@ -245,10 +245,10 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
     // They are on a line, which says more of its direction than two points that are nearly one.
-    if (ends.length < 2) continue;
-    const [first] = ends, from = (v) => minus(places[v], places[first]), far = (v) => dot(from(v), from(v));
-    const way = from([...ends].sort((u, v) => far(v) - far(u))[0]);
-    ends.sort((u, v) => dot(way, from(u)) - dot(way, from(v)));
+    // They are on a line, which says more of its direction than two points that are nearly one.
+    const middle = [0, 1].map((axis) => ends.reduce((sum, v) => sum + places[v][axis], 0) / ends.length);
+    const from = (v) => minus(places[v], middle), far = ends.map(from).sort((u, v) => dot(v, v) - dot(u, u))[0];
+    ends.sort((u, v) => dot(far, from(u)) - dot(far, from(v)));
     ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
   const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
@@ -268,7 +268,8 @@ function homotopy(balls) {
     for (const k of rows.slice(j + 1)) {
       if (filled.length === loops || !meet(i, j, k)) continue;
       // Each three that meet fill a loop, unless it is a sum, modulo 2, of ones that are filled.
-      const left = filled.reduce((sum, loop) => ((sum ^ loop) < sum ? sum ^ loop : sum), bit(i, j) ^ bit(i, k) ^ bit(j, k));
+      const around = bit(i, j) ^ bit(i, k) ^ bit(j, k);
+      const left = filled.reduce((sum, loop) => ((sum ^ loop) < sum ? sum ^ loop : sum), around);
       if (left) filled.push(left);
     }
   }
