@@ -528,7 +528,7 @@ def discs_through_one_point(rng):
         centers, corner, kind = rng.random((n, 2)) * (4, 3), np.array((4, 3)), k // 3 % 6
         if kind == 1:  # two points, centres on a line
             centers = centers[:, :1] * (0.8, 0.6) + (1, 1)
-            corner = np.array((1, 1)) + (-0.6, 0.8)
+            corner = np.array((0.4, 1.8))
         elif kind == 2:  # one of two points
             corner = (rng.random((2, 2)) * (4, 3))[rng.integers(0, 2, n)]
         elif kind == 3:  # most rims in the corner

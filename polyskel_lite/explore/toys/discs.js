@@ -1,5 +1,6 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
-// Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
+// Mirrors polyskel_lite.polyballs in the plane, with its tolerances: pairs, discs, incidence, generating, power,
+// skeleton.
 
 import { bettiOf, circumballs, delaunay, edgeKey, facetTable, groupsOf } from "./plane.js";
 import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
@@ -245,7 +246,6 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
     // They are on a line, which says more of its direction than two points that are nearly one.
-    // They are on a line, which says more of its direction than two points that are nearly one.
     const middle = [0, 1].map((axis) => ends.reduce((sum, v) => sum + places[v][axis], 0) / ends.length);
     const from = (v) => minus(places[v], middle), far = ends.map(from).sort((u, v) => dot(v, v) - dot(u, u))[0];
     ends.sort((u, v) => dot(far, from(u)) - dot(far, from(v)));
@@ -255,7 +255,7 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
   return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
 }
 
-/** The Betti numbers of slightly larger discs by which two and three of them meet: rounding cannot change these. */
+/** The Betti numbers of slightly larger discs by which two and three of them meet: no crossing need be told apart. */
 function homotopy(balls) {
   const filled = [], rows = [...balls.keys()], bit = (i, j) => 1n << BigInt(i * balls.length + j);
   const meet = (...some) => {
