@@ -521,11 +521,32 @@ def nearly_tangent_discs(rng):
         yield Discs(np.outer(x, turn[0]), r)
 
 
+def discs_through_one_point(rng):
+    """Or two; centres anywhere, or rims dragged over a corner of the board."""
+    for k in range(216):
+        n, noise = int(rng.integers(2, 17)), (0, 1e-12, 1e-9)[k % 3]
+        centers, corner, kind = rng.random((n, 2)) * (4, 3), np.array((4, 3)), k // 3 % 6
+        if kind == 1:  # two points, centres on a line
+            centers = centers[:, :1] * (0.8, 0.6) + (1, 1)
+            corner = np.array((0.4, 1.8))
+        elif kind == 2:  # one of two points
+            corner = (rng.random((2, 2)) * (4, 3))[rng.integers(0, 2, n)]
+        elif kind == 3:  # most rims in the corner
+            corner = np.where(rng.random((n, 1)) < 0.7, corner, rng.random((n, 2)) * (4, 3))
+        elif kind == 4:  # a point with discs all around it
+            corner = rng.random(2) * (4, 3)
+        elif kind == 5:  # in pixels
+            centers, corner = centers * 80, corner * 80
+        radii = np.linalg.norm(centers - corner, axis=1)
+        yield Discs(centers, radii * (1 + noise * rng.standard_normal(n)))
+
+
 FAMILIES = [
     *(random_points, grids, circles, near_lines, scales, no_tessellation),
     *(stars, sampled, resampled, staircases, several_rings, scaled_shapes, samples_on_lines),
     *(samples, crossings, maximal_balls),
     *(random_discs, nested_discs, chains_of_discs, rings_of_discs, filled_holes, nearly_tangent_discs),
+    discs_through_one_point,
 ]
 
 

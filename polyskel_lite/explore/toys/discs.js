@@ -1,5 +1,6 @@
 // Unions of a few discs, {c: [x, y], r}: arcs and singular points of the boundary, exact skeleton (appendix A).
-// Mirrors polyskel_lite.polyballs in the plane with its tolerances: pairs, discs, incidence, generating, skeleton.
+// Mirrors polyskel_lite.polyballs in the plane, with its tolerances: pairs, discs, incidence, generating, power,
+// skeleton.
 
 import { bettiOf, circumballs, delaunay, edgeKey, facetTable, groupsOf } from "./plane.js";
 import { between, distanceTo, dot, extentOf, minus } from "./vectors.js";
@@ -8,7 +9,7 @@ const TURN = 2 * Math.PI;
 // As in polyballs.pairs: what rounding may change, what a ball is believed to, which points are on a circle.
 const ROUNDING = 2 ** -49, SWALLOWED = 1e-10, PRECISION = 1e-12, WORST = 1e-6, ON = 1e-9;
 // Voronoi vertices nearer than this share of their radius are one; so much may a vector miss a cone.
-const SAME = 1e-9, CONE = 1e-9;
+const SAME = 1e-9, CONE = 1e-9, FLAT = 1e-8;
 
 const rounding = (...balls) => ROUNDING * balls.reduce((sum, { c, r }) => sum + extentOf([c]) + r, 0);
 const believed = (a, b) => PRECISION * Math.min(a.r, b.r) + rounding(a, b);
@@ -67,15 +68,16 @@ function uncovered(covers) {
   return arcs.sort((a, b) => a.start - b.start);
 }
 
-/** The first by `better` of each group of points linked by distances up to `reach(i, j)`. */
+/** Groups of points linked by distances up to `reach(i, j)`, the first one by `better` in front. */
 function merged(points, reach, better) {
   const near = ([i, j]) => distanceTo(points[i], points[j]) <= reach(i, j);
   const groups = groupsOf(points.length, pairsOf([...points.keys()]).filter(near));
-  const best = new Map();
+  const found = new Map();
   groups.forEach((group, k) => {
-    if (!best.has(group) || better(k, best.get(group))) best.set(group, k);
+    const others = found.get(group) ?? [];
+    found.set(group, others.length && !better(k, others[0]) ? [...others, k] : [k, ...others]);
   });
-  return [...best.values()].sort((i, j) => i - j).map((k) => points[k]);
+  return [...found.values()].sort(([i], [j]) => i - j);
 }
 
 /** Where two discs that touch from outside do so on the boundary, or null. */
@@ -99,14 +101,14 @@ export function union(balls) {
   const gone = new Set(pairs.flatMap(([i, j]) => swallowed(balls, i, j)));
   const left = pairs.filter(([i, j]) => !gone.has(i) && !gone.has(j));
   const crosses = ([i, j]) => gap(balls[i], balls[j]) < -believed(balls[i], balls[j]);
-  const covers = new Map(rows.filter((i) => !gone.has(i)).map((i) => [i, []]));
-  for (const [i, j] of left.filter(crosses)) {
-    covers.get(i).push(cover(balls[i], balls[j]));
-    covers.get(j).push(cover(balls[j], balls[i]));
-  }
+  // Of what is within rounding the first part around a circle decides: the library's order, small discs first.
+  const octave = (i) => Math.floor(Math.log2(balls[i].r)), kept = rows.filter((i) => !gone.has(i));
+  const bySize = [...kept].sort((i, j) => octave(i) - octave(j));
+  const covers = kept.map((i) => [...bySize.filter((j) => j > i), ...bySize.filter((j) => j < i)]
+    .filter((j) => crosses([Math.min(i, j), Math.max(i, j)])).map((j) => cover(balls[i], balls[j])));
   const arcs = [], ends = [], errors = [], touching = [];
-  for (const [i, parts] of covers) {
-    for (const arc of uncovered(parts)) {
+  kept.forEach((i, row) => {
+    for (const arc of uncovered(covers[row])) {
       arcs.push([i, arc.start, arc.end]);
       if (arc.end - arc.start < TURN) [arc.start, arc.end].forEach((angle, k) => {
         const p = onCircle(balls[i], angle);
@@ -114,12 +116,13 @@ export function union(balls) {
         errors.push(arc.errors[k] * balls[i].r + ROUNDING * (extentOf([p]) + balls[i].r));
       });
     }
-  }
+  });
   for (const [i, j] of left.filter((pair) => !crosses(pair))) {
     const p = contact(balls, rows, i, j);
     if (p) { touching.push([i, j]); ends.push(p); errors.push(0); }
   }
-  const singular = merged(ends, (i, j) => errors[i] + errors[j], (i, j) => errors[i] < errors[j]);
+  const groups = merged(ends, (i, j) => errors[i] + errors[j], (i, j) => errors[i] < errors[j]);
+  const singular = groups.map(([k]) => ends[k]);
   return { rows, arcs, singular, touching, area: areaOf(balls, arcs) };
 }
 
@@ -163,7 +166,7 @@ export function disconnected(balls, kept) {
 
 /** Pairs of generating discs that cross on the boundary and whose common part meets no third one (definition 3). */
 export function quasiDisconnected(balls, kept, { rows, singular }) {
-  const { through } = gathered(balls, rows, singular);
+  const through = singular.map((p) => discsAt(balls, rows, p));
   return pairsOf(kept).filter(([i, j]) => through.filter((on) => on.includes(i) && on.includes(j)).length > 1)
     .filter(([i, j]) => kept.every((k) => k === i || k === j ||
       distanceToLens(balls[k].c, balls[i], balls[j]) > balls[k].r * (1 + PRECISION)));
@@ -183,24 +186,36 @@ function distanceToLens(p, a, b) {
 
 // --- the skeleton ------------------------------------------------------------------------------------
 
+/** The discs that a point is on, which may be off by a length. */
+const discsAt = (balls, rows, p, off = 0) =>
+  rows.filter((i) => distanceTo(p, balls[i].c) <= balls[i].r * (1 + ON) + rounding(balls[i]) + off);
+
 /** Singular points so near to each other that they are one, and the discs that each is on. */
 function gathered(balls, rows, corners) {
-  const on = (p) => rows.filter((i) => distanceTo(p, balls[i].c) <= balls[i].r * (1 + ON) + rounding(balls[i]));
-  const discs = corners.map(on), least = discs.map((some) => Math.min(...some.map((i) => balls[i].r)));
+  const discs = corners.map((p) => discsAt(balls, rows, p));
+  const least = discs.map((some) => Math.min(...some.map((i) => balls[i].r)));
   const reach = (i, j) => ON * Math.min(least[i], least[j]);
-  const singular = merged(corners, reach, (i, j) => discs[i].length > discs[j].length);
-  return { singular, through: singular.map(on) };
+  const groups = merged(corners, reach, (i, j) => discs[i].length > discs[j].length);
+  const spread = ([k, ...others]) => Math.max(0, ...others.map((other) => distanceTo(corners[k], corners[other])));
+  const through = groups.map((group) => discsAt(balls, rows, corners[group[0]], 2 * spread(group)));
+  return { singular: groups.map(([k]) => corners[k]), through };
 }
 
-/** Whether a vector is a positive combination of others, or nearly. */
-function inCone(vector, ways) {
-  const v = unitOf(vector), units = ways.map(unitOf);
-  const along = (u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE;
-  const among = (u, w) => {
-    const d = cross(u, w);
-    return Math.abs(d) > PRECISION && cross(v, w) / d >= 0 && cross(u, v) / d >= 0;
-  };
-  return units.some(along) || pairsOf(units).some(([u, w]) => among(u, w));
+/** The lesser factor of v as a combination of two vectors, not a number if these are in line. */
+function leastShare(v, [u, w]) {
+  const d = cross(u, w);
+  return Math.abs(d) > PRECISION ? Math.min(cross(v, w) / d, cross(u, v) / d) : NaN;
+}
+
+/** Whether v is a positive combination of others, or nearly. */
+const inCone = ([v, ways]) => ways.some((u) => dot(u, v) >= 0 && Math.abs(cross(u, v)) <= CONE) ||
+  pairsOf(ways).some((two) => leastShare(v, two) >= 0);
+
+/** Whether v is in its cone, of some [v, ways] that should agree: the clearest one decides. */
+function inCones(cones) {
+  const shares = cones.map(([v, ways]) => (ways.length === 2 ? leastShare(v, ways) : NaN));
+  const clearest = shares.reduce((most, share) => (Math.abs(share) > Math.abs(most) ? share : most), 0);
+  return Math.abs(clearest) < FLAT ? cones.every(inCone) : clearest > 0;
 }
 
 /** Edges between Delaunay neighbours: [a, b, its triangles]. On a line, or of two points, there are no triangles. */
@@ -222,20 +237,43 @@ function skeletonOf(balls, { rows, arcs, singular: given }) {
     const known = places.findIndex((p, i) => distanceTo(p, center) <= SAME * r && Math.abs(sizes[i] - r) <= SAME * r);
     if (known >= 0) return known;
     // The ball is in the union iff at each singular point its centre is between those of the discs there.
-    const seen = (v, place) => minus(place, singular[v]);
-    const inside = corners.every((v) => inCone(seen(v, center), through[v].map((i) => seen(v, balls[i].c))));
+    const seen = (v, place) => unitOf(minus(place, singular[v]));
+    const inside = inCones(corners.map((v) => [seen(v, center), through[v].map((i) => seen(v, balls[i].c))]));
     return inside ? (places.push(center), sizes.push(r)) - 1 : -1;
   });
   const edges = new Map();
   for (const [a, b, sides] of graph.rows) {
-    const across = minus(singular[b], singular[a]), way = [-across[1], across[0]];
     const discs = exposed.filter((i) => through[a].includes(i) && through[b].includes(i));
     const ends = [...new Set([...sides.map((t) => labels[t] ?? -1), ...discs])].filter((v) => v >= 0);
-    ends.sort((u, v) => dot(way, places[u]) - dot(way, places[v]));
+    // They are on a line, which says more of its direction than two points that are nearly one.
+    const middle = [0, 1].map((axis) => ends.reduce((sum, v) => sum + places[v][axis], 0) / ends.length);
+    const from = (v) => minus(places[v], middle), far = ends.map(from).sort((u, v) => dot(v, v) - dot(u, u))[0];
+    ends.sort((u, v) => dot(far, from(u)) - dot(far, from(v)));
     ends.slice(1).forEach((v, k) => { edges.set(edgeKey(ends[k], v), [ends[k], v]); });
   }
   const pairs = [...edges.values()], used = [...new Set([...exposed, ...pairs.flat()])];
   return { dots: used.map((v) => places[v]), edges: pairs.map((pair) => pair.map((v) => used.indexOf(v))) };
+}
+
+/** The Betti numbers of slightly larger discs by which two and three of them meet: no crossing need be told apart. */
+function homotopy(balls) {
+  const filled = [], rows = [...balls.keys()], bit = (i, j) => 1n << BigInt(i * balls.length + j);
+  const meet = (...some) => {
+    const more = ON * Math.min(...some.map((i) => balls[i].r ** 2));
+    const [a, b, third] = some.map((i) => ({ c: balls[i].c, r: Math.sqrt(balls[i].r ** 2 + more) }));
+    return third ? distanceToLens(third.c, a, b) <= third.r : gap(a, b) <= 0;
+  };
+  const pairs = pairsOf(rows).filter((pair) => meet(...pair)), [pieces, loops] = bettiOf(rows.length, pairs);
+  for (const [i, j] of pairs) {
+    for (const k of rows.slice(j + 1)) {
+      if (filled.length === loops || !meet(i, j, k)) continue;
+      // Each three that meet fill a loop, unless it is a sum, modulo 2, of ones that are filled.
+      const around = bit(i, j) ^ bit(i, k) ^ bit(j, k);
+      const left = filled.reduce((sum, loop) => ((sum ^ loop) < sum ? sum ^ loop : sum), around);
+      if (left) filled.push(left);
+    }
+  }
+  return [pieces, loops - filled.length];
 }
 
 /**
@@ -251,8 +289,7 @@ export function ballSkeleton(balls) {
   const none = { ...found, segments: [], dots: [], betti: null };
   if (boundary.touching.length) return { ...none, refused: "tangent" };
   const { dots, edges } = skeletonOf(balls, boundary), betti = bettiOf(dots.length, edges);
-  // Discs may miss each other by no more than rounding: the skeleton must be like that of slightly larger ones.
-  const grown = balls.map(({ c, r }) => ({ c, r: r * Math.sqrt(1 + ON) })), other = skeletonOf(grown, union(grown));
-  if (bettiOf(other.dots.length, other.edges).some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
+  const right = homotopy(boundary.rows.map((i) => balls[i]));
+  if (right.some((b, k) => b !== betti[k])) return { ...none, refused: "rounding" };
   return { ...found, segments: edges.map((edge) => edge.map((v) => dots[v])), dots, betti };
 }
