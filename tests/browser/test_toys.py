@@ -166,6 +166,33 @@ def test_a_finger_moves_a_handle_and_scrolls_beside_it(opened):
 
 
 @pytest.mark.parametrize("name", MAKERS)
+def test_a_finger_moves_what_is_open_at_first(opened, name):
+    """A tap on the slider, or a dot that is dragged; then the line is Python's for the new place."""
+    phone = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+    found, explorer = opened(name, **phone), MAKERS[name]()
+    page = found.page
+    before, slider = line(page), page.locator(".psl-knobs > .psl-slider input[type=range]")
+    if explorer.board.handles:
+        page.locator(".psl-stage").scroll_into_view_if_needed()
+        box = page.locator(".psl-handle").first.bounding_box()
+        touch = page.context.new_cdp_session(page)
+        for kind, k in (("touchStart", 0), *(("touchMove", k) for k in range(1, 9)), ("touchEnd", None)):
+            place = [] if k is None else [{"x": box["x"] + 16 + 4 * k, "y": box["y"] + 16 + 3 * k}]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": place})
+            page.wait_for_timeout(16)
+        dots = page.locator(".psl-handle").all()  # another one may lie over the first
+        explorer.board.handles = [[float(dot.get_attribute(f"data-{axis}")) for axis in "xy"] for dot in dots]
+    else:
+        box = slider.bounding_box()
+        page.touchscreen.tap(box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2)
+        control = slider.get_attribute("data-control")
+        explorer.controls[control].value = int(slider.input_value())
+    assert line(page) != before
+    assert line(page) == explorer.board.text
+    found.assert_quiet()
+
+
+@pytest.mark.parametrize("name", MAKERS)
 def test_every_control_works_by_keyboard(opened, name):
     found, explorer = opened(name), MAKERS[name]()
     page = found.page
