@@ -21,6 +21,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from tables import write_table
 
 import polyskel_lite as psl
 from polyskel_lite import implicit
@@ -202,10 +203,7 @@ def main(arguments=None) -> None:
     options.out.mkdir(parents=True, exist_ok=True)
     if not options.python:
         rows = with_peers(rows, path)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(path, rows, COLUMNS)
 
 
 if __name__ == "__main__":

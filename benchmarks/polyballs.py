@@ -11,13 +11,13 @@ by brute force in the random polyballs of `tests/truth/polyballs.py`, and points
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import Delaunay
+from tables import write_table
 
 import polyskel_lite as psl
 
@@ -108,13 +108,6 @@ def checked(N: int, polyballs: int) -> dict:
     return counts | {"largest_gap": f"{counts['largest_gap']:.1e}"}
 
 
-def write(path: Path, columns: tuple[str, ...], rows: list[dict]) -> None:
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def main(arguments=None) -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -131,11 +124,11 @@ def main(arguments=None) -> None:
             for n in sizes:
                 rows.append(timed(name, n, N))
                 print(*rows[-1].values(), flush=True)
-    write(options.out / "polyballs.csv", TIMES, rows)
+    write_table(options.out / "polyballs.csv", rows, TIMES)
     checks = [checked(N, options.polyballs) for N in (2, 3)] if options.polyballs else []
     for row in checks:
         print(row)
-    write(options.out / "polyball_checks.csv", CHECKS, checks)
+    write_table(options.out / "polyball_checks.csv", checks, CHECKS)
 
 
 if __name__ == "__main__":

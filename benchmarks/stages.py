@@ -11,7 +11,6 @@ are medians of five runs after a first one, which is not counted; `targets.py` t
 from __future__ import annotations
 
 import argparse
-import csv
 import gc
 import json
 import os
@@ -23,6 +22,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
+from tables import write_table
 
 HERE = Path(__file__).resolve().parent
 SIZES = {
@@ -245,10 +245,7 @@ def main(arguments=None) -> None:
 
 def write(path: Path, rows: list[dict]) -> None:
     """Write what has been measured so far."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(path, rows, COLUMNS)
 
 
 if __name__ == "__main__":

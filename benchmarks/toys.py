@@ -9,16 +9,16 @@ milliseconds from a key or a handle's move to the painted picture (median, 95th 
 from __future__ import annotations
 
 import argparse
-import csv
 import statistics
 import tempfile
 from pathlib import Path
 
 import numpy as np
 from playwright.sync_api import sync_playwright
+from tables import write_table
 
 from polyskel_lite import explore
-from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
+from polyskel_lite.explore.bundle import page_module, page_style, whole_page
 
 FLAGS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking"]
 #: Explorer, how it comes, and what is moved: a slider by its keys, or the handle of this number.
@@ -61,7 +61,6 @@ def main() -> None:
     parser.add_argument("--browser", default="/usr/bin/chromium", help="Chromium to run")
     parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parent / "toys.csv")
     options = parser.parse_args()
-    style = "".join(p.read_text("utf-8") for p in (BOARD.with_name("board.css"), TOYS / "toys.css"))
     rows = []
     print("explorer        way       data kB  module kB  median ms  95 % ms")
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
@@ -70,8 +69,7 @@ def main() -> None:
             explorer = getattr(explore, name)()
             module, body = page_module([type(explorer).__name__]), explorer.stand_in()
             path = Path(folder) / f"{name}.html"
-            script = f'<script type="module">{module}</script>'
-            path.write_text(f"<!DOCTYPE html><style>{style}</style>{body}{script}", encoding="utf-8")
+            path.write_text(whole_page(name, body, module, page_style()), encoding="utf-8")
             page = browser.new_page(viewport={"width": 1280, "height": 900})
             page.goto(path.as_uri())
             page.wait_for_selector(".psl-toy[data-ready]")
@@ -88,10 +86,7 @@ def main() -> None:
             rows.append(row)
             print("{explorer:15} {way:9} {data_kb:7} {module_kb:10} {median_ms:10} {p95_ms:8}".format(**row))
         browser.close()
-    with open(options.out, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(options.out, rows)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ the next (median, longest) while the reader turns it, moves the threshold, or si
 from __future__ import annotations
 
 import argparse
-import csv
 import statistics
 import tempfile
 from pathlib import Path
@@ -17,6 +16,7 @@ from pathlib import Path
 import inputs
 import numpy as np
 from playwright.sync_api import sync_playwright
+from tables import write_table
 
 import polyskel_lite as psl
 from polyskel_lite import explore
@@ -103,10 +103,7 @@ def main() -> None:
                 }
             )
         browser.close()
-    with open(options.out, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(options.out, rows)
 
 
 if __name__ == "__main__":

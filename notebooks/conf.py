@@ -84,8 +84,7 @@ mathjax3_config = {"loader": {"load": ["input/tex", "output/chtml", "a11y/assist
 # By its path: the book needs no library to be built.
 BUNDLE = runpy.run_path(str(ROOT / "polyskel_lite" / "explore" / "bundle.py"))
 VIEWER = BUNDLE["one_module"]()
-SHEETS = [BUNDLE["BOARD"].with_name("board.css"), BUNDLE["TOYS"] / "toys.css"]
-STYLE = "".join(sheet.read_text(encoding="utf-8") for sheet in SHEETS)
+STYLE = BUNDLE["page_style"]()
 #: A setting of Sphinx, so that pages are written again when what they hold of these has changed.
 moving_parts = VIEWER + STYLE + "".join(f.read_text("utf-8") for f in sorted(BUNDLE["TOYS"].glob("*.js")))
 

@@ -7,6 +7,7 @@ file by its path: the book can be built where neither NumPy nor the library is i
 import re
 from collections.abc import Iterable
 from graphlib import TopologicalSorter
+from html import escape
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -52,6 +53,36 @@ def page_module(toys: Iterable[str] = ()) -> str:
     lines = [f'import {{ {name} }} from "./{homes[name]}";\n' for name in names]
     main = f'import {{ start }} from "./page.js";\n{"".join(lines)}\nstart({{ {", ".join(names)} }});\n'
     return _INDENT.sub("", _COMMENT.sub("", _joined(TOYS / "main.js", main)))
+
+
+def page_style() -> str:
+    """The style sheets of a page with explorers.
+
+    Examples
+    --------
+    >>> ".psl-knobs" in page_style(), ".psl-board" in page_style()
+    (True, True)
+    """
+    sheets = (BOARD.with_name("board.css"), TOYS / "toys.css")
+    return "".join(sheet.read_text(encoding="utf-8") for sheet in sheets)
+
+
+def whole_page(title: str, body: str, module: str, style: str = "") -> str:
+    """A page of its own that works from disk.
+
+    Examples
+    --------
+    >>> whole_page("A & B", "<p>here</p>", "").count("A &amp; B")
+    2
+    """
+    title = escape(title)
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{style}</style></head>\n"
+        f"<body><main>\n<h1>{title}</h1>\n{body}\n</main>\n"
+        f'<script type="module">\n{module}\n</script>\n</body>\n</html>\n'
+    )
 
 
 def _joined(main: Path, text: str) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from polyskel_lite import explore
-from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
+from polyskel_lite.explore.bundle import page_module, page_style, whole_page
 
 from .accessibility import COLOURS, findings
 from .conftest import ROOT, pages
@@ -34,8 +34,7 @@ def box() -> list[float]:
 def folder(browser, box, tmp_path_factory) -> Path:
     """Small pages: a question and an explorer; a place in it; two questions for one; a question alone."""
     folder = tmp_path_factory.mktemp("questions")
-    sheets = (BOARD.with_name("board.css"), TOYS / "toys.css", ROOT / "notebooks/_static/predict.css")
-    style = "".join(sheet.read_text("utf-8") for sheet in sheets)
+    style = page_style() + (ROOT / "notebooks/_static/predict.css").read_text("utf-8")
     middle = {"x": (box[0] + box[2]) / 2, "y": (box[1] + box[3]) / 2, "near": 0.1 * (box[2] - box[0])}
     toy = explore.graphs().stand_in()
     one, two = (CHOICE.format(k=k, more="") for k in (1, 2))
@@ -49,12 +48,7 @@ def folder(browser, box, tmp_path_factory) -> Path:
         "nowhere": f"<section>{PLACE.format(k=1, more='', **middle)}</section>",
     }
     for name, body in bodies.items():
-        page = (
-            f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f"<style>{style}</style></head><body><main><h1>{name}</h1>{body}</main>"
-            f'<script type="module">{page_module(["Graphs"])}</script></body></html>'
-        )
+        page = whole_page(name, body, page_module(["Graphs"]), style)
         (folder / f"{name}.html").write_text(page, encoding="utf-8")
     return folder
 

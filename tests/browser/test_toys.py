@@ -8,7 +8,7 @@ import pytest
 
 import polyskel_lite as psl
 from polyskel_lite import explore, figures
-from polyskel_lite.explore.bundle import BOARD, TOYS, page_module
+from polyskel_lite.explore.bundle import page_module, page_style, whole_page
 from polyskel_lite.simplification import try_removal
 
 from .accessibility import STRUCTURE, findings
@@ -38,20 +38,18 @@ SHOWN = """({ values = {}, handle = -1, place }) => {
 }"""
 
 
+def write(path: Path, body: str, toys) -> None:
+    """A page of its own with these explorers."""
+    path.write_text(whole_page(path.stem, body, page_module(toys), page_style()), encoding="utf-8")
+
+
 @pytest.fixture(scope="module")
 def folder(browser, tmp_path_factory) -> Path:
     """A page of each explorer."""
     folder = tmp_path_factory.mktemp("toys")
-    style = "".join(sheet.read_text("utf-8") for sheet in (BOARD.with_name("board.css"), TOYS / "toys.css"))
     for name, make in MAKERS.items():
         explorer = make()
-        page = (
-            f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f"<style>{style}</style></head><body><main><h1>{name}</h1>{explorer.stand_in()}</main>"
-            f'<script type="module">{page_module([type(explorer).__name__])}</script></body></html>'
-        )
-        (folder / f"{name}.html").write_text(page, encoding="utf-8")
+        write(folder / f"{name}.html", explorer.stand_in(), [type(explorer).__name__])
     return folder
 
 
@@ -60,8 +58,7 @@ def opened(visit, folder):
     """opened(name, **context): the page of an explorer, ready."""
 
     def open_page(name: str, **context):
-        found = visit(folder.as_uri(), f"{name}.html", **context)
-        return found
+        return visit(folder.as_uri(), f"{name}.html", **context)
 
     return open_page
 
@@ -275,9 +272,7 @@ def test_all_explorers_on_one_page(visit, folder):
     module = page_module(names)
     # Indentation is taken off, so no text in the modules may go over several lines.
     assert [row for row in module.splitlines() if row.count("`") % 2] == []
-    page = "".join(explorer.stand_in() for explorer in explorers)
-    page = f'<!DOCTYPE html><title>all</title>{page}<script type="module">{module}</script>'
-    (folder / "all.html").write_text(page, encoding="utf-8")
+    write(folder / "all.html", "".join(explorer.stand_in() for explorer in explorers), names)
     found = visit(folder.as_uri(), "all.html")
     assert found.page.locator(".psl-text").all_inner_texts() == [one.board.text for one in explorers]
     found.assert_quiet()
@@ -361,9 +356,7 @@ def test_the_last_triangle_goes_with_a_word(opened):
 def test_tangent_balls_are_called_as_on_the_board(visit, folder):
     explorer = explore.balls(psl.Polyball([(0, 0), (5, 5), (2, 0)], [1, 1, 1]))
     assert explorer.board.text.startswith("Balls 1 and 3 touch without crossing")
-    script = f'<script type="module">{page_module(["Balls"])}</script>'
-    page = f"<!DOCTYPE html><title>t</title>{explorer.stand_in()}{script}"
-    (folder / "tangent.html").write_text(page, encoding="utf-8")
+    write(folder / "tangent.html", explorer.stand_in(), ["Balls"])
     assert line(visit(folder.as_uri(), "tangent.html").page) == explorer.board.text
 
 

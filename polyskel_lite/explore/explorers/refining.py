@@ -108,7 +108,7 @@ class Refinement(Explorer):
 
     def given(self) -> dict[str, object]:
         """All rounds for both graphs, as they are drawn."""
-        return {"alt": ALT, "rounds": {to: self._rounds(to) for to in ("gabriel", "delaunay")}}
+        return {"rounds": {to: self._rounds(to) for to in ("gabriel", "delaunay")}}
 
     def _rounds(self, to: str) -> dict[str, list]:
         stages = self._stages(to)

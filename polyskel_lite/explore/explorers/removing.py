@@ -130,7 +130,7 @@ class Removals(Explorer):
             "simplices": rows,
             "aside": self._aside,
         }
-        return {name: value.tolist() for name, value in about.items()} | {"alt": ALT}
+        return {name: value.tolist() for name, value in about.items()}
 
     def _draw_state(self, P: DelaunayShape, removal: Removal | None) -> None:
         """The triangles that are left with one marked, and to the right of them the skeleton."""

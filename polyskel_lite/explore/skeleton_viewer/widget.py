@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
@@ -15,7 +14,7 @@ import numpy as np
 import traitlets
 
 from ...errors import InputError
-from ..bundle import one_module
+from ..bundle import one_module, whole_page
 from . import pack
 from .scene import State, as_states, description, pack_scene, paper_thresholds
 from .strip import still_pictures
@@ -267,15 +266,11 @@ class SkeletonViewer(anywidget.AnyWidget):
         >>> path.stat().st_size < 400_000
         True
         """
-        page = (
-            '<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{html.escape(title)}</title>\n"
-            "<style>body { font-family: system-ui, sans-serif; max-width: 52rem; margin: 1rem auto; "
-            "padding: 0 1rem; }</style></head>\n"
-            f"<body><main>\n<h1>{html.escape(title)}</h1>\n{self.to_html()}\n</main>\n"
-            f'<script type="module">\n{_MODULE}\n</script>\n</body>\n</html>\n'
+        style = (
+            "body { font-family: system-ui, sans-serif; max-width: 52rem; margin: 1rem auto; "
+            "padding: 0 1rem; }"
         )
+        page = whole_page(title, self.to_html(), _MODULE, style)
         Path(path).write_text(page, encoding="utf-8")
 
     def _repr_mimebundle_(self, **options):

@@ -4,7 +4,7 @@
 import { make } from "../skeleton_viewer/dom.js";
 
 const LOCKABLE = ".psl-controls, .psl-knobs, .psl-handle, canvas";
-const MOVING = ".psl-viewer, .psl-toy, .psl-tape";
+const MOVING = ".psl-viewer, .psl-toy";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const SEEN = /^(What you saw|Reading)\b/; // how a text begins that tells what the picture shows
 const locks = new Map(); // picture -> the questions that it waits for, and what opens it
