@@ -19,7 +19,11 @@ class Tied(SphinxRole):
     """Words, and in angle brackets what they are tied to."""
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
-        words, tied = re.fullmatch(r"(.*?)\s*<([^>]*)>", self.text, re.S).groups()
+        found = re.fullmatch(r"(.*?)\s*<([^>]*)>", self.text, re.S)
+        if not found:
+            wrong = f"{self.name}: {self.text!r} says not in <...> what it is tied to"
+            return [], [self.inliner.reporter.error(wrong, line=self.lineno)]
+        words, tied = found.groups()
         if self.name == "state":
             pairs = [pair.split("=") for pair in tied.split(",")]
             tied = json.dumps({name.strip(): json.loads(value) for name, value in pairs})

@@ -185,7 +185,7 @@ class Balls(Explorer):
         draw, discs, singular = self.board.draw, (Y.centers, Y.radii), Y.singular_points()
         ball, start, end = Y.arcs()
         arcs = (Y.centers[ball], Y.radii[ball], start, end)
-        graph = {"lines": _voronoi_lines(singular, np.reshape(self.board.box, (2, 2))), "opacity": 0.45}
+        graph = {"lines": _voronoi_lines(singular, self.board.view.around), "opacity": 0.45}
         shown, label = self.controls["voronoi"].value, "Voronoi graph of the singular points"
         draw("balls", "balls", circles=discs, opacity=0.9, stroke=False)
         draw("rims", "complement", circles=discs, fill=False, order=1.6, label="circles")

@@ -102,6 +102,7 @@ class Graphs(Explorer):
         moved = slider.value != self._number  # by the reader's hand
         slider.max = len(triangles) - 1
         if slider.value < 0:
+            self._number = -1
             return ""
         lost = ""
         if not moved:

@@ -45,7 +45,10 @@ export class Graphs extends Toy {
     this.rows.sort(({ corners: a }, { corners: b }) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2]);
     const moved = slider.value !== this.number; // by the reader's hand
     slider.reach(this.rows.length - 1);
-    if (slider.value < 0) return "";
+    if (slider.value < 0) {
+      this.number = -1;
+      return "";
+    }
     let lost = "";
     if (!moved) {
       const now = this.rows.findIndex(({ corners }) => String(corners) === String(this.corners));
