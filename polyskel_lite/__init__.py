@@ -25,6 +25,7 @@ from .polyballs import Polyball, Sk2Conditions, delaunay_balls, sk2_conditions
 from .shapes import Shape
 from .simplification import Hierarchy, hierarchy
 from .skeletons import Skeleton, branch_graph, directed_hausdorff, hausdorff, sk0, sk1, sk2, sk3, voronoi
+from .tables import table
 
 __all__ = [
     "Bones",
@@ -65,5 +66,6 @@ __all__ = [
     "sk2_conditions",
     "sk3",
     "skeleton",
+    "table",
     "voronoi",
 ]

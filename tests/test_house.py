@@ -23,7 +23,7 @@ BELOW_DRAWING = {
     "polyballs",
 }
 BELOW_DRAWING |= {"datasets", "implicit"}
-FOR_ALL = {"errors", "checks", "progress", "compiling"}
+FOR_ALL = {"errors", "checks", "progress", "compiling", "tables"}
 MAY_IMPORT = {
     "": BELOW_DRAWING | {"pipeline"},
     "pipeline": BELOW_DRAWING,
@@ -31,6 +31,7 @@ MAY_IMPORT = {
     "checks": set(),
     "progress": set(),
     "compiling": set(),
+    "tables": set(),
     "exact": set(),
     "files": set(),
     "graphs": {"exact"},
