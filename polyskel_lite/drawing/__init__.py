@@ -28,6 +28,7 @@ from .spatial_balls import draw_polyball_3d
 from .spatial_graphs import OPPOSITE, draw_tessellation_3d, draw_voronoi_3d
 from .spatial_skeletons import RAMP, draw_color_bar, draw_glass, draw_skeleton_3d
 from .style import (
+    CORE,
     KINDS,
     RC,
     TEXT_WIDTH,

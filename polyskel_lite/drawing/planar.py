@@ -13,7 +13,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from .lines import points_of
-from .style import kind_of
+from .style import CORE, kind_of
 
 
 def draw_shape(ax: Axes, shape, fill: bool = True, kind: str = "shape", **style) -> Axes:
@@ -126,6 +126,10 @@ def draw_lines(ax: Axes, lines, kind: str, **style) -> Axes:
         "zorder": look.zorder,
         "joinstyle": "round",
     }
-    ax.add_collection(LineCollection(list(lines), **options | style))
+    options |= style
+    ax.add_collection(LineCollection(list(lines), **options))
+    if look.core:  # over all of them, so that a double line runs on where lines meet
+        core = {"colors": look.core, "linewidths": CORE * options["linewidths"]}
+        ax.add_collection(LineCollection(list(lines), **options | core))
     ax.autoscale_view()
     return ax

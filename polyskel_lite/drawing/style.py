@@ -2,7 +2,8 @@
 
 The colours are those of Okabe and Ito, a palette made for readers with any kind of colour vision, with an
 indigo of Tol's for the eighth line; a test holds them apart as seen with each kind of colour blindness.
-Because a colour is lost on a grey printer, each kind also has its own line pattern or marker.
+Because a colour is lost on a grey printer, each kind also has its own line pattern, width or marker.
+Skeletons are never dashed: a dash cannot be told from a gap, and in how many pieces they are is the question.
 
 References
 ----------
@@ -25,6 +26,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import AbstractPathEffect, Normal
 
 from ..errors import InputError
 from .pages import show_in_notebooks
@@ -79,6 +81,8 @@ class Kind:
         Marker, ``""`` for lines.
     markersize : float
         In points.
+    core : str or None
+        Colour of a thinner line along the middle, which makes a double line.
     zorder : float
         Kinds with a larger number are drawn over those with a smaller one.
 
@@ -96,8 +100,12 @@ class Kind:
     linewidth: float = 1.0
     marker: str = ""
     markersize: float = 0.0
+    core: str | None = None
     zorder: float = 2.0
 
+
+#: Width of the core of a double line, as a share of the whole.
+CORE = 0.45
 
 #: The kinds of objects, by name. Names are lower case: ``shape``, ``samples``, ``delaunay``, ``sk0`` ...
 KINDS = {
@@ -108,11 +116,28 @@ KINDS = {
     "delaunay": Kind("Delaunay", "#56B4E9", "#DCEFFA", "-", 0.8, zorder=2.0),
     "voronoi": Kind("Voronoi", "#E69F00", "#FBE7BF", (0, (4, 1)), 0.9, zorder=2.5),
     "gabriel": Kind("Gabriel", "#009E73", "#BFE7DC", (0, (6, 1, 1, 1)), 1.6, zorder=3.0),
-    "sk0": Kind("$Sk_0$", "#D55E00", None, "-", 1.6, zorder=4.0),
+    # Broader ones lie below: where two skeletons are one, both are seen.
+    "sk0": Kind("$Sk_0$", "#D55E00", None, "-", 1.4, zorder=4.2),
     "sk1": Kind("$Sk_1$", "#CC79A7", None, "none", 0.0, "D", 3.0, zorder=5.0),
-    "sk2": Kind("$Sk_2$", "#0072B2", None, (0, (8, 1)), 1.6, zorder=4.2),
-    "sk3": Kind("$Sk_3$", "#332288", None, (0, (6, 1, 1, 1)), 1.4, zorder=4.1),
+    "sk2": Kind("$Sk_2$", "#0072B2", None, "-", 2.0, zorder=4.1),
+    "sk3": Kind("$Sk_3$", "#332288", None, "-", 2.4, core="#E4DFF5", zorder=4.0),
 }
+
+
+class Core(AbstractPathEffect):
+    """Draws the core of a double line, whatever the width of the line is by then."""
+
+    def __init__(self, color: str):
+        super().__init__()
+        self.color = color
+
+    def draw_path(self, renderer, gc, *path):
+        inner = renderer.new_gc()
+        inner.copy_properties(gc)
+        inner.set_linewidth(CORE * gc.get_linewidth())
+        inner.set_foreground(self.color)
+        renderer.draw_path(inner, *path)
+        inner.restore()
 
 
 def kind_of(name: str) -> Kind:
@@ -318,6 +343,7 @@ def handle(name: str, label: str | None = None) -> Line2D | Patch:
         linewidth=kind.linewidth,
         marker=kind.marker or None,
         markersize=1.4 * kind.markersize,
+        path_effects=[Normal(), Core(kind.core)] if kind.core else None,
         label=label,
     )
 

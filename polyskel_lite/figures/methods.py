@@ -54,19 +54,15 @@ def figure_3(shape=None, n: int = 96, start: float = 0.7) -> Figure:
     drawing.draw_shape(axs[2], polygon, fill=False)
     drawing.draw_balls(axs[3], sk1(shape, E).balls(), outlines=True)
     drawing.draw_skeleton(axs[4], sk1(shape, E), kind="sk1")
-    # Solid lines: where a skeleton is in pieces, a dash cannot be told from a gap.
-    drawing.draw_skeleton(axs[5], second, kind="sk2", linestyle="-")
-    drawing.draw_skeleton(axs[6], sk3(shape, E), kind="sk3", linestyle="-", linewidth=1.0)
+    drawing.draw_skeleton(axs[5], second, kind="sk2")
+    drawing.draw_skeleton(axs[6], sk3(shape, E), kind="sk3")
     drawing.draw_skeleton(axs[7], sk0(inner), kind="sk0")
     drawing.draw_shape(axs[3], shape, fill=False, zorder=2)
     for ax in axs[1:4]:
         drawing.draw_samples(ax, E)
     for ax in axs[:8]:
         drawing.focus(ax, shape, margin=0.05)
-    solid = [drawing.handle(name) for name in ("sk2", "sk3")]
-    for line in solid:
-        line.set_linestyle("-")
-    names = ("shape", "samples", "voronoi", "delaunay", "balls", "sk1", *solid, "sk0")
+    names = ("shape", "samples", "voronoi", "delaunay", "balls", "sk1", "sk2", "sk3", "sk0")
     axs[8].set_title("", loc="left")
     drawing.legend(axs[8], *names, loc="center", ncols=1, labels={"balls": "$Y_w$"})
     return fig
@@ -154,7 +150,7 @@ def figure_4(shape=None, n: int = 18) -> Figure:
         drawing.draw_shape(above, shape, fill=False)
         drawing.draw_shape(below, shape)
         drawing.draw_skeleton(below, skeletons[1 - column], color="#B0B0B0", linestyle="-", linewidth=4)
-        drawing.draw_skeleton(below, skeleton, kind="sk2", linestyle="-")
+        drawing.draw_skeleton(below, skeleton, kind="sk2")
         for ax in (above, below):
             drawing.draw_samples(ax, E, markersize=4)
             drawing.focus(ax, shape, margin=0.04)
@@ -208,7 +204,7 @@ def figure_5(
         drawing.draw_shape(ax, X)
         drawing.draw_skeleton(ax, exact, color="#B0B0B0", linestyle="-", linewidth=3.5)
         if E is not None:
-            drawing.draw_skeleton(ax, sk2(X, E), kind="sk2", linestyle="-", linewidth=1.2)
+            drawing.draw_skeleton(ax, sk2(X, E), kind="sk2", linewidth=1.2)
             drawing.draw_samples(ax, E, markersize=5 if len(E) <= 50 else 2.5)
         drawing.focus(ax, shape, margin=0.05)
     for ax in axs[len(pictures) :]:

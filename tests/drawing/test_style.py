@@ -38,9 +38,22 @@ def test_no_two_kinds_share_a_colour_or_a_line_pattern():
     lines = [kind for kind in drawing.KINDS.values() if kind.linestyle != "none" and kind.fill != "#EEEEEE"]
     colors = [kind.color for kind in drawing.KINDS.values()]
     assert len(set(colors)) == len(colors)
-    # Delaunay edges, balls and Sk0 are solid: thin and blue, around areas, thick.
-    patterns = [(kind.linestyle, kind.linewidth) for kind in lines]
+    # Delaunay edges, balls and skeletons are solid: thin, around areas, of three widths, the last one double.
+    patterns = [(kind.linestyle, kind.linewidth, kind.core) for kind in lines]
     assert len(set(patterns)) == len(patterns)
+
+
+def test_a_double_line_has_its_core_in_pictures_and_legends(ax):
+    drawing.draw_lines(ax, [[(0, 0), (1, 1)]], "sk3")
+    drawing.draw_lines(ax, [[(0, 0), (1, 1)]], "sk2")
+    sk3 = drawing.KINDS["sk3"]
+    widths = [float(line.get_linewidth()[0]) for line in ax.collections]
+    assert widths == [sk3.linewidth, drawing.CORE * sk3.linewidth, drawing.KINDS["sk2"].linewidth]
+    assert len(drawing.handle("sk3").get_path_effects()) == 2
+    drawing.legend(ax, "sk3")
+    ax.figure.canvas.draw()
+    pixels = np.asarray(ax.figure.canvas.buffer_rgba())[..., :3] / 255
+    assert (np.abs(pixels - to_rgb(sk3.core)).max(axis=-1) < 0.02).any()
 
 
 # How the loss of a kind of cone changes linear RGB: Machado, Oliveira, Fernandes, "A physiologically-based

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import html
 import re
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 
 import numpy as np
 
-from ...drawing import Kind, clip_segments, kind_of
+from ...drawing import CORE, Kind, clip_segments, kind_of
 from ...errors import InputError
 
 #: Units of a picture a pixel has, and those a typographic point has (96 pixels an inch, 72 points).
@@ -135,6 +135,8 @@ def fragment(layer: Layer, view: View) -> str:
         "points": _fill_in(f"M%d %d{pen['mark']}", view.place(layer.points)) if len(layer.points) else "",
     }
     parts = [f'<path d="{d}" {pen[name]}/>' for name, d in paths.items() if d]
+    if pen["core"] and paths["lines"]:
+        parts.append(f'<path d="{paths["lines"]}" {pen["core"]}/>')
     parts += [_text(pen["text"], view, *entry) for entry in layer.text]
     body = "".join(parts)
     return f'<g opacity="{pen["opacity"]}">{body}</g>' if body and layer.opacity != 1 else body
@@ -166,6 +168,9 @@ def pens(layer: Layer) -> dict[str, str]:
         "polygons": f"{paint}{rule}{pen}",
         "circles": f"{paint}{first}{rim}",
         "lines": f'fill="none" {_pen(kind, layer.width)}',
+        "core": f'fill="none" {_pen(replace(kind, color=kind.core), CORE * layer.width)}'
+        if kind.core
+        else "",
         "points": f'fill="{kind.color}"' if kind.marker == "D" else dot,
         "mark": diamond if kind.marker == "D" else "h0",
         "text": f'font-size="130" font-family="sans-serif" fill="{kind.color}"',

@@ -167,14 +167,14 @@ class Balls(Explorer):
         try:
             skeleton = Y.skeleton()
         except PolyskelError as error:
-            board.draw("skeleton", "sk2", width=1.4, label="skeleton of the union")
+            board.draw("skeleton", "sk2", label="skeleton of the union")
             self.numbers = {}
             if not isinstance(error, TangentBallsError):
                 raise  # its sentence is shown under the board
             i, j = min(np.sort(error.pairs, axis=1).tolist())  # numbered as on the board
             raise TangentBallsError(self.words["tangent"].format(i=i + 1, j=j + 1), error.pairs) from None
         lines, dots = skeleton.segments(), skeleton.vertices
-        board.draw("skeleton", "sk2", lines=lines, points=dots, width=1.4, label="skeleton of the union")
+        board.draw("skeleton", "sk2", lines=lines, points=dots, label="skeleton of the union")
         self.tell(**ball_numbers(Y, skeleton))
 
     def given(self) -> dict[str, object]:

@@ -146,7 +146,7 @@ class Removals(Explorer):
         draw("gone", "complement", lines=sk0(whole).segments() + aside, label="skeleton at the start")
         draw("skeleton", "sk0", lines=lines, points=skeleton.vertices + aside, label="Sk_0 of what is left")
         goes = {"lines": lines[going], "points": center + aside, "label": "what goes with the triangle"}
-        draw("goes", "sk2", **goes, width=2.0, order=5.0)
+        draw("goes", "sk2", **goes, width=1.5, order=5.0)
 
 
 def removals(shape: Shape | DelaunayShape | None = None) -> Removals:

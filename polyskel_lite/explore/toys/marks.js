@@ -60,6 +60,7 @@ export function fragment(contents, pen, view) {
     return `<text x="${left}" y="${top}" ${pen.text}>${words}</text>`;
   });
   const body = Object.entries(paths).filter(([, d]) => d).map(([name, d]) => `<path d="${d}" ${pen[name]}/>`);
+  if (pen.core && paths.lines) body.push(`<path d="${paths.lines}" ${pen.core}/>`);
   const all = body.join("") + written.join("");
   return all && pen.opacity !== "1" ? `<g opacity="${pen.opacity}">${all}</g>` : all;
 }
