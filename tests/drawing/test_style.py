@@ -51,6 +51,7 @@ def test_a_double_line_has_its_core_in_pictures_and_legends(ax):
     assert widths == [sk3.linewidth, drawing.CORE * sk3.linewidth, drawing.KINDS["sk2"].linewidth]
     assert len(drawing.handle("sk3").get_path_effects()) == 2
     drawing.legend(ax, "sk3")
+    ax.figure.set_dpi(300)  # or the core has no pixel of its own
     ax.figure.canvas.draw()
     pixels = np.asarray(ax.figure.canvas.buffer_rgba())[..., :3] / 255
     assert (np.abs(pixels - to_rgb(sk3.core)).max(axis=-1) < 0.02).any()
