@@ -37,6 +37,7 @@ from .style import (
     handle,
     kind_of,
     legend,
+    letter_size,
     page_share,
     page_width,
     say,

@@ -228,6 +228,17 @@ def page_share() -> float:
     return _WIDTH.get() / TEXT_WIDTH
 
 
+def letter_size() -> float:
+    """Size of the letters (a), (b) ... of panels, in points: to be read on a phone, where pictures are small.
+
+    Examples
+    --------
+    >>> round(letter_size() / plt.rcParams["font.size"], 2)
+    1.45
+    """
+    return 1.45 * plt.rcParams["font.size"]
+
+
 def thin(figure: Figure, share: float) -> Figure:
     """Scale the widths of all lines and the sizes of all dots of a figure; letters stay as they are.
 
@@ -286,7 +297,7 @@ def axes(
     >>> plt.close(fig)
     """
     height = 0.75 * width / ncols * nrows if height is None else height
-    over = 0.2 if letters else 0.04  # inches, for a letter
+    over = 0.22 if letters else 0.04  # inches, for a letter
     # On a narrower page panels are smaller, but a line of letters is not.
     share = page_share() * ((height - under) / nrows - over) + over
     under *= 1.4 if page_share() < 0.7 else 1.0  # where a legend may be in two lines
@@ -301,7 +312,7 @@ def axes(
         ax.set_axis_off()
         ax.margins(0.03)
         if letters:
-            ax.set_title(f"({letter})", loc="left", pad=2)
+            ax.set_title(f"({letter})", loc="left", pad=2, fontsize=letter_size())
     return fig, flat if flat.size > 1 else flat[0]
 
 
@@ -317,7 +328,7 @@ def say(ax: Axes, words: str, **style) -> Axes:
     '50 samples'
     >>> plt.close(fig)
     """
-    shift = (2.2 * plt.rcParams["font.size"], 2)
+    shift = (2.2 * letter_size(), 2)
     ax.annotate(words, (0, 1), shift, "axes fraction", "offset points", va="baseline", **style)
     return ax
 

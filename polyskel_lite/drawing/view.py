@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d import proj3d
 
 from .lines import box_of
-from .style import TEXT_WIDTH, page_share
+from .style import TEXT_WIDTH, letter_size, page_share
 
 #: Where the camera of every 3D picture stands: elevation and azimuth, in degrees.
 VIEW = {"elev": 22.0, "azim": -52.0}
@@ -46,7 +46,8 @@ def axes_3d(
     fig, axs = panels([3] * (nrows * ncols), nrows, height, width)
     for letter, ax in zip(string.ascii_lowercase if letters else "", axs, strict=False):
         place = ax.get_position()  # not of the axes, which may be moved
-        ax.text2D(place.x0 + 0.005, place.y1 - 0.015, f"({letter})", transform=fig.transFigure, va="top")
+        at = {"transform": fig.transFigure, "va": "top", "size": letter_size()}
+        ax.text2D(place.x0 + 0.005, place.y1 - 0.015, f"({letter})", **at)
     return fig, axs if axs.size > 1 else axs[0]
 
 

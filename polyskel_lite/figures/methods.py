@@ -155,7 +155,7 @@ def figure_4(shape=None, n: int = 18) -> Figure:
             drawing.draw_samples(ax, E, markersize=4)
             drawing.focus(ax, shape, margin=0.04)
     for ax, letter in zip(axs, ("(a)", "", "(b)", ""), strict=True):
-        ax.set_title(letter, loc="left")
+        ax.set_title(letter, loc="left", fontsize=drawing.letter_size())
     return fig
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -51,9 +50,10 @@ def examples_6() -> list[tuple[DelaunayShape, int]]:
 def _letter(ax: Axes, k: int, place: tuple[float, float], words: str = "") -> None:
     """Write (a), (b) ... and some words at a place of the figure."""
     write = ax.text2D if ax.name == "3d" else ax.text
-    beside = 2.2 * plt.rcParams["font.size"] / 72 / ax.figure.get_size_inches()[0]
-    for shift, text in ((0.0, f"({chr(97 + k)})"), (beside, words)):
-        write(place[0] + shift, place[1], text, transform=ax.figure.transFigure, va="top")
+    size, at = drawing.letter_size(), {"transform": ax.figure.transFigure, "va": "top"}
+    beside = 2.2 * size / 72 / ax.figure.get_size_inches()[0]
+    write(*place, f"({chr(97 + k)})", size=size, **at)
+    write(place[0] + beside, place[1], words, **at)
 
 
 @paper_figure

@@ -82,7 +82,7 @@ def figure_10(shapes: Mapping[str, DelaunayShape] | None = None) -> Figure:
         _write(grid[4, column], middle, 0.99 * under, f"{branches} branches", va="top")
     for row, (letter, name) in enumerate(zip("abcde", ROWS, strict=True)):
         top = high - row * (high - low) / 5
-        _write(grid[row, 0], 0.006, top, f"({letter})", va="top")
+        _write(grid[row, 0], 0.006, top, f"({letter})", va="top", size=drawing.letter_size())
         _write(grid[row, 0], 0.006, top - (high - low) / 10, name, va="center", rotation=90)
     scale = fig.add_axes((0.3, 0.58 * under, 0.4, 0.1 * under))
     words = "radius of the ball, in % of the largest in (e)"
