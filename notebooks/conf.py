@@ -145,12 +145,19 @@ def draw_the_house(app, docname, source):
             source[0] = source[0].replace(f"```{{psl-house-{name}}}\n```", drawn)
 
 
+def lay_out_the_contents(app, docname, source):
+    """Put a card for each page into the page that lists them."""
+    if docname == "contents":
+        cards = runpy.run_path(str(ROOT / "tools" / "contents.py"))["contents"]()
+        source[0] = source[0].replace("```{psl-contents}\n```", cards)
+
+
 def changed_house(app, env, added, changed, removed):
-    """The page of the house is read again when the code has changed, though the page itself has not."""
+    """Pages that are made of others are read again when these have changed: the house's code, all pages."""
     code = [ROOT / "tools" / "house.py", *(ROOT / "polyskel_lite").rglob("*.py")]
     code += {path.parent for path in code}  # a file that was taken away
     read = env.all_docs.get("house", 0) / 1e6  # kept in microseconds
-    return ["house"] if any(path.stat().st_mtime > read for path in code) else []
+    return ["contents", *(["house"] if any(path.stat().st_mtime > read for path in code) else [])]
 
 
 def make_light(app, error):
@@ -162,6 +169,7 @@ def make_light(app, error):
 def setup(app):
     app.add_config_value("moving_parts", "", "html", str)
     app.connect("source-read", draw_the_house)
+    app.connect("source-read", lay_out_the_contents)
     app.connect("env-get-outdated", changed_house)
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)

@@ -1,8 +1,11 @@
 """A chapter opens with its title, a question and its first picture; what it is for comes below, folded."""
 
+import runpy
 import tomllib
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from .conftest import ROOT
 
@@ -44,3 +47,15 @@ def test_first_picture_is_on_the_first_screen(visit, book, name):
         assert found["card"] is not None, "a folded card: In this chapter"
         assert found["card"] > found["picture"]
     assert not found["open"]
+    thumbnails = runpy.run_path(str(ROOT / "tools" / "thumbnails.py"))
+    if name != "index":  # the contents page has a small picture of what one sees first
+        stored = thumbnails["FOLDER"] / f"{name}.png"
+        seen = opened.page.locator(thumbnails["PICTURE"]).locator("visible=true")
+        assert stored.exists() == bool(seen.count()), "run tools/thumbnails.py"
+        if stored.exists():
+            small, now = (
+                np.asarray(i.convert("RGB"), float)
+                for i in (Image.open(stored), thumbnails["thumbnail"](seen.first))
+            )
+            # 48 colours and other edges of lines make less than 2 of 255 on average; another picture 7 and more.
+            assert np.abs(small - now).mean() < 4, "run tools/thumbnails.py"
