@@ -12,6 +12,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 LONGEST_CELL = 25
+# Of what is to be read without unfolding anything: lines of code a chapter, and a cell.
+VISIBLE_LINES = 60
+LONGEST_VISIBLE_CELL = 12
 LARGEST_FILE = 1_500_000
 # A path of the machine that ran the notebook tells a reader nothing, and differs on the next machine.
 MACHINE_PATHS = re.compile(r"/(?:root|home|Users|tmp|work)/")
@@ -39,6 +42,22 @@ def interactive(cell: dict) -> str:
     """The HTML of the viewer or explorer that a cell shows; nothing for other cells."""
     pages = ["".join(output.get("data", {}).get("text/html", "")) for output in cell["outputs"]]
     return "".join(page for page in pages if re.search(r'class="psl-(?:viewer|explorer)"', page))
+
+
+def is_folded(cell: dict) -> bool:
+    return "hide-input" in cell["metadata"].get("tags", [])
+
+
+def outside_solutions(path: Path) -> list[dict]:
+    """The code cells that are on the page before anything is unfolded."""
+    found, inside = [], False
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "markdown":
+            marks = re.findall(r"^[`:]{3,}\{solution-(start|end)\}", text(cell), re.M)
+            inside = marks[-1] == "start" if marks else inside
+        elif not inside:
+            found.append(cell)
+    return found
 
 
 def test_book_and_folder_name_the_same_chapters():
@@ -106,6 +125,30 @@ class TestChapter:
     def test_no_code_cell_is_long(self, path):
         for cell in cells(path, "code"):
             assert len(text(cell).splitlines()) <= LONGEST_CELL, text(cell)
+
+    def test_visible_code_is_what_teaches(self, path):
+        """Checks, drawing and plumbing are folded; what makes a number or a picture is to be seen."""
+        visible = [text(cell) for cell in outside_solutions(path) if not is_folded(cell)]
+        lines = [[line for line in code.splitlines() if line.strip()] for code in visible]
+        assert sum(map(len, lines)) <= VISIBLE_LINES
+        assert [
+            code for code, own in zip(visible, lines, strict=True) if len(own) > LONGEST_VISIBLE_CELL
+        ] == []
+        assert [code for code in visible if re.search(r"^\s*assert\b", code, re.M)] == []
+
+    def test_what_is_folded_says_what_it_is_and_is_folded_in_jupyterlab_too(self, path):
+        for cell in filter(is_folded, cells(path, "code")):
+            assert cell["metadata"]["mystnb"]["code_prompt_show"].startswith(("How ", "The ", "What ")), text(
+                cell
+            )
+            assert cell["metadata"]["jupyter"]["source_hidden"], text(cell)
+
+    def test_what_is_printed_is_no_table(self, path):
+        """Columns of numbers are a table of the page (`psl.table`), which a phone and a screen reader can show."""
+        for cell in cells(path, "code"):
+            printed = "".join("".join(o["text"]) for o in cell["outputs"] if o["output_type"] == "stream")
+            columns = re.findall(r"^.*\S {2,}\S+ {2,}\S.*$", printed, re.M)
+            assert len(columns) < 3, printed
 
     def test_one_title(self, path):
         prose = "\n".join(text(cell) for cell in cells(path, "markdown"))
