@@ -144,7 +144,7 @@ class TestChapter:
             assert cell["metadata"]["jupyter"]["source_hidden"], text(cell)
 
     def test_what_is_printed_is_no_table(self, path):
-        """Columns of numbers are a table of the page (`psl.table`), which a phone and a screen reader can show."""
+        """Columns of numbers are a table of the page (`psl.table`), for phones and screen readers."""
         for cell in cells(path, "code"):
             printed = "".join("".join(o["text"]) for o in cell["outputs"] if o["output_type"] == "stream")
             columns = re.findall(r"^.*\S {2,}\S+ {2,}\S.*$", printed, re.M)

@@ -57,5 +57,5 @@ def test_first_picture_is_on_the_first_screen(visit, book, name):
                 np.asarray(i.convert("RGB"), float)
                 for i in (Image.open(stored), thumbnails["thumbnail"](seen.first))
             )
-            # 48 colours and other edges of lines make less than 2 of 255 on average; another picture 7 and more.
+            # 48 colours and other edges of lines make less than 2 of 255 on average; another picture 7.
             assert np.abs(small - now).mean() < 4, "run tools/thumbnails.py"

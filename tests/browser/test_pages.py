@@ -23,6 +23,43 @@ LOST = """() => {
     }
     return lost;
 }"""
+# How many letters a full line of text has, on average over the longer paragraphs of the page.
+LETTERS = """() => {
+    const long = (p) => p.innerText.length > 300 && p.clientHeight && !p.querySelector(".math");
+    const full = [...document.querySelectorAll("article p")].filter(long);
+    const lines = full.map((p) => p.clientHeight / parseFloat(getComputedStyle(p).lineHeight));
+    const sum = (numbers) => numbers.reduce((a, b) => a + b, 0);
+    return full.length ? sum(full.map((p) => p.innerText.length)) / sum(lines) : null;
+}"""
+# What does not fit a sheet of A4, or may be on two of them.
+CUT = """(height) => {
+    const cut = [];
+    for (const one of document.querySelectorAll("article :is(figure, .psl-viewer, .psl-toy, .psl-predict)")) {
+        const box = one.getBoundingClientRect(), name = one.id || one.className;
+        if (box.height > height) cut.push(`${name} is ${box.height} high`);
+        if (box.right > innerWidth + 1) cut.push(`${name} ends at ${box.right}`);
+        if (getComputedStyle(one).breakInside !== "avoid") cut.push(`${name} may be cut`);
+    }
+    return cut;
+}"""
+# What leaves a narrow screen, and pictures so small that the letters of their panels have less than 9 pixels.
+TIGHT = """(letters) => {
+    const tight = [];
+    for (const table of document.querySelectorAll("article table")) {
+        const box = table.getBoundingClientRect();
+        const name = table.innerText.slice(0, 80);
+        if (box.right > innerWidth + 1) tight.push(`a table ends at ${box.right}: ${name}`);
+    }
+    for (const image of document.querySelectorAll("article figure img")) {
+        const box = image.getBoundingClientRect(), natural = Number(image.getAttribute("width"));
+        const name = image.alt.slice(0, 60);
+        if (box.width && letters * box.width < 9 * natural) tight.push(`${name}: ${box.width} of ${natural}`);
+    }
+    if (document.documentElement.scrollWidth > innerWidth + 1) tight.push("the page scrolls sideways");
+    return tight;
+}"""
+A4 = {"width": 680, "height": 1009}  # in pixels, within margins of 15 mm
+LETTER = 1.45 * 9 * 120 / 72  # height of "(a)" in a picture of its full size, in pixels
 
 
 @pytest.mark.parametrize("name", pages())
@@ -30,9 +67,15 @@ def test_page_from_disk(visit, book, name):
     opened = visit(book.as_uri(), f"{name}.html", color_scheme="light")
     assert opened.page.evaluate(LOST) == []
     assert findings(opened.page) == []
+    assert opened.page.locator("article h1").count() == 1
+    letters = opened.page.evaluate(LETTERS)
+    assert letters is None or 55 < letters <= 75  # a paragraph's last line is seldom full
     opened.page.emulate_media(color_scheme="dark")
     opened.page.locator("html[data-theme=dark]").wait_for()
     assert findings(opened.page, COLOURS) == []
+    opened.page.emulate_media(media="print")
+    opened.page.set_viewport_size(A4)
+    assert opened.page.evaluate(CUT, A4["height"]) == []
     opened.assert_quiet()
 
 
@@ -43,6 +86,7 @@ def test_page_from_a_web_server_on_a_phone(visit, site, name):
     )
     assert opened.page.evaluate(LOST) == []
     assert findings(opened.page, STRUCTURE) == []
+    assert opened.page.evaluate(TIGHT, LETTER) == []
     opened.assert_quiet()
 
 
