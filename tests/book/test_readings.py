@@ -53,7 +53,9 @@ def test_the_head_of_the_horse_goes_before_the_hooves():
     assert len(hooves) == 4
     assert head["radius"] > 3 * max(tip["radius"] for tip in hooves)
     assert head["pos"] not in [node["pos"] for _, node in h.branches(2.9 * np.pi).nodes(data=True)]
-    assert_said("index", "Near $2.9\\pi$ the head goes as well", "more than three times as large")
+    assert_said(
+        "index", "At $2.9\\pi$ the branch of neck and head has gone", "more than three times as large"
+    )
 
 
 def test_noise_of_the_sampling_explorer():
