@@ -42,6 +42,10 @@ external_toc_path = str(ROOT / "_build" / "toc.json")
 Path(external_toc_path).parent.mkdir(exist_ok=True)
 Path(external_toc_path).write_text(json.dumps(BOOK["toc"]), encoding="utf-8")
 
+# The reference is read from the code, which is not run: the book needs no library to be built.
+API = runpy.run_path(str(ROOT / "tools" / "api.py"))
+default_role = "code"  # of docstrings: `name`
+
 nb_execution_mode = "off"  # the pages are the notebooks as committed; `make test` runs them and compares
 bibtex_bibfiles = ["references.bib"]
 numfig = True
@@ -152,6 +156,25 @@ def lay_out_the_contents(app, docname, source):
         source[0] = source[0].replace("```{psl-contents}\n```", cards)
 
 
+def fill_the_reference(app, docname, source):
+    """Put what docstrings say into the reference, and links to its pages into the cards of chapters."""
+    if docname.startswith("api"):
+
+        def part(match):
+            return (
+                API["front"]()
+                if match[1] == "front"
+                else API["page" if match[1] in API["ROOMS"] else "beside"](match[1])
+            )
+
+        source[0] = re.sub(r"```\{psl-api\} (\w+)\n```", part, source[0])
+    elif line := API["reference_line"](docname):
+        code = r'(\n *)("- \*\*Code:\*\* )'
+        source[0] = re.sub(
+            code, lambda m: m[1] + json.dumps(line + "\n", ensure_ascii=False) + "," + m[1] + m[2], source[0]
+        )
+
+
 def changed_house(app, env, added, changed, removed):
     """Pages that are made of others are read again when these have changed: the house's code, all pages."""
     code = [ROOT / "tools" / "house.py", *(ROOT / "polyskel_lite").rglob("*.py")]
@@ -170,6 +193,7 @@ def setup(app):
     app.add_config_value("moving_parts", "", "html", str)
     app.connect("source-read", draw_the_house)
     app.connect("source-read", lay_out_the_contents)
+    app.connect("source-read", fill_the_reference)
     app.connect("env-get-outdated", changed_house)
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)
