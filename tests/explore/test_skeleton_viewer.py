@@ -290,6 +290,22 @@ def test_skeleton_in_a_shape():
     assert picture.samples
 
 
+def test_shape_beneath_a_polyball():
+    X = psl.datasets.load("horse")
+    Y = psl.sk2(X, X.sample(25)).balls()
+    picture = explore.viewer({"few": Y}, shape=X)
+    header, data = picture.scene["variants"][0], pack.unpack(picture.blob)
+    lines = pack.read(data, header["beneath"]).reshape(-1, 2, 4)
+    assert np.allclose(lines[..., :2], X.segments, atol=1e-6)
+    assert not lines[..., 2:].any()
+    low, high = np.array(picture.scene["low"]), np.array(picture.scene["high"])
+    assert (low <= X.points.min(axis=0)).all()  # few balls: the horse reaches beyond them
+    assert (high >= X.points.max(axis=0)).all()
+    assert "beneath" not in explore.viewer(Y).scene["variants"][0]
+    with pytest.raises(psl.InputError, match="both in the plane"):
+        explore.viewer(psl.Polyball([(0, 0, 0)], [1]), shape=X)
+
+
 def test_polyballs_in_the_plane_and_in_space():
     Y = psl.Polyball([(0, 0), (1, 0), (5, 0)], [1, 0.8, 0.5])
     picture = explore.viewer({"three": Y, "two": psl.Polyball(Y.centers[:2], Y.radii[:2])})

@@ -145,11 +145,21 @@ def pack_skeleton(packer: Packer, skeleton: Skeleton, radius: float, low, high) 
 
 
 def _rays(skeleton: Skeleton, low, high) -> np.ndarray:
-    """Rays as segments that leave the picture: place, 0, place, 0."""
-    out = np.zeros((len(skeleton.rays), 2, 4), dtype=np.float32)
+    """Rays as segments that leave the picture."""
     begin = skeleton.vertices[skeleton.ray_vertices]
-    out[:, 0, : begin.shape[1]] = begin
-    out[:, 1, : begin.shape[1]] = begin + 4 * np.linalg.norm(high - low) * skeleton.rays
+    return as_segments(np.stack([begin, begin + 4 * np.linalg.norm(high - low) * skeleton.rays], axis=1))
+
+
+def as_segments(ends: np.ndarray) -> np.ndarray:
+    """Segments as the browser draws them: place, 0, place, 0.
+
+    Examples
+    --------
+    >>> as_segments(np.array([[(1, 2), (3, 4)]])).tolist()
+    [[[1.0, 2.0, 0.0, 0.0], [3.0, 4.0, 0.0, 0.0]]]
+    """
+    out = np.zeros((len(ends), 2, 4), dtype=np.float32)
+    out[..., : ends.shape[-1]] = ends
     return out
 
 

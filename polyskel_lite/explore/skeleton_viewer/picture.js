@@ -150,6 +150,8 @@ export class Picture {
       { ...this.paint(hex), width: width * this.ratio, alpha: Math.min(1, 2 * opacity) });
     if (shapeCut) line("outline-all", 0, colors.ghost, 1);
     line("outline", shapeCut, colors.shape, shapeCut ? 1.6 : 1.2);
+    const { beneath } = this.scene;
+    if (beneath) this.segments("beneath", this.label, () => beneath, { ...this.paint(this.palette.ink), width: this.ratio });
   }
 
   polygons() {

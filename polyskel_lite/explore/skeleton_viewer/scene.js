@@ -15,6 +15,7 @@ export class Scene {
     this.sizes = get("sizes") ?? new Uint8Array(0);
     this.corners = get("corners") ?? new Uint16Array(0);
     this.rays = get("rays");
+    this.beneath = get("beneath"); // the outline of the shape that a union of discs approximates
     this.points = header.points ? positions(buffer, header.points, dimension) : new Float32Array(0);
     const index = (name) => (header[name] ? Uint32Array.from(get(name)) : null);
     this.samples = index("samples");

@@ -17,7 +17,7 @@ from ...shapes import Shape
 from ...simplification import Hierarchy, hierarchy
 from ...skeletons import Skeleton
 from .outlook import camera
-from .pack import Packer, pack_hierarchy, pack_polyball, pack_shape, pack_skeleton, scale
+from .pack import Packer, as_segments, pack_hierarchy, pack_polyball, pack_shape, pack_skeleton, scale
 
 # Stands for a hierarchy where there is none.
 _NOTHING = {"largest": np.pi, "knee": np.pi, "power": 1, "systematic": False}
@@ -28,6 +28,8 @@ _PAPER = {"branch": 2 * np.pi, "wireframe": 2 * np.pi, "surface": np.pi / 3}
 @dataclass(frozen=True, eq=False)
 class State:
     """One thing to show: a shape (or none), its whole skeleton, its hierarchies (or none) and their names.
+
+    Under a union of discs there may be the shape that they approximate: its outline is drawn over them.
 
     Examples
     --------
@@ -42,6 +44,7 @@ class State:
     skeleton: Skeleton
     hierarchies: tuple[Hierarchy, ...]
     names: tuple[str, ...]
+    beneath: Shape | None = None
 
 
 def as_states(source, strategies: Sequence[str] | None, shape) -> list[State]:
@@ -92,7 +95,9 @@ def _state(label: str, source, strategies, shape) -> State:
     if isinstance(source, Skeleton):
         return State(label, None if shape is None else _delaunay(shape), source, (), ())
     if isinstance(source, Polyball):
-        return State(label, source, source.skeleton(), (), ())
+        if shape is not None and not (isinstance(shape, Shape) and shape.dimension == source.dimension == 2):
+            raise InputError("beneath a Polyball goes a Shape, and both in the plane; leave out shape=.")
+        return State(label, source, source.skeleton(), (), (), beneath=shape)
     if isinstance(source, (Shape, DelaunayShape)):
         P = _delaunay(source)
         if strategies is None:
@@ -165,6 +170,8 @@ def pack_scene(states: Sequence[State], variant: str, view) -> tuple[dict[str, A
         header |= pack_skeleton(packer, replace(state.skeleton, **places), radius, *grid)
         if isinstance(state.P, Polyball):
             header |= pack_polyball(packer, state.P, turn, *grid)
+            if state.beneath is not None:
+                header["beneath"] = packer.add(as_segments(state.beneath.segments))
         elif state.P is not None:
             header |= pack_shape(packer, state.P, turn, *grid)
         betti = _betti(state)
@@ -207,8 +214,10 @@ def _box(state: State) -> tuple[np.ndarray, np.ndarray]:
     """The box of what must be seen: the shape, or the skeleton if there is none."""
     if isinstance(state.P, Polyball):
         reach = state.P.radii[:, None]
-        return (state.P.centers - reach).min(axis=0), (state.P.centers + reach).max(axis=0)
-    if state.P is not None:
+        points = np.concatenate([state.P.centers - reach, state.P.centers + reach])
+        if state.beneath is not None:
+            points = np.concatenate([points, state.beneath.points])
+    elif state.P is not None:
         points = state.P.tessellation.points[np.unique(state.P.boundary())]
     elif state.skeleton.tessellation is not None:
         points = state.skeleton.tessellation.points

@@ -44,7 +44,7 @@ def still_pictures(states: Sequence, scene: dict[str, Any], now: dict[str, Any])
         if state.hierarchies and now["simplified"] >= 1:
             shape = state.hierarchies[k].shape(threshold)
         words = _words(state, k, threshold, scene, skeleton)
-        data = b64encode(_picture(shape, skeleton, scene)).decode()
+        data = b64encode(_picture(shape, skeleton, scene, state.beneath)).decode()
         figures.append(
             '<figure style="margin:0;flex:1 1 9rem;min-width:0">'
             f'<img style="width:100%;height:auto;background:#fff" src="data:image/png;base64,{data}" '
@@ -87,7 +87,7 @@ def _words(state, k: int, threshold: float, scene, skeleton) -> str:
     return " ".join(parts)
 
 
-def _picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
+def _picture(shape, skeleton, scene: dict[str, Any], beneath=None) -> bytes:
     """One still picture as PNG.
 
     Examples
@@ -102,7 +102,8 @@ def _picture(shape, skeleton, scene: dict[str, Any]) -> bytes:
     import matplotlib.pyplot as plt
 
     with plt.rc_context(drawing.RC):
-        fig = (_flat if scene["dimension"] == 2 else _solid)(shape, skeleton, scene)
+        flat = scene["dimension"] == 2
+        fig = _flat(shape, skeleton, scene, beneath) if flat else _solid(shape, skeleton, scene)
         file = BytesIO()
         fig.savefig(file, format="png", dpi=2 * _DPI, metadata={"Software": None})
         plt.close(fig)
@@ -118,10 +119,12 @@ def _smaller(file: BytesIO) -> bytes:
     return out.getvalue()
 
 
-def _flat(shape, skeleton, scene):
+def _flat(shape, skeleton, scene, beneath):
     fig, ax = drawing.axes(width=_WIDTH, height=0.8 * _WIDTH)
     if isinstance(shape, Polyball):
         drawing.draw_balls(ax, shape)
+        if beneath is not None:
+            drawing.draw_shape(ax, beneath, fill=False, linewidth=0.4, zorder=3)
     elif shape is not None:
         try:
             drawing.draw_shape(ax, shape.to_shape(), linewidth=0.6)

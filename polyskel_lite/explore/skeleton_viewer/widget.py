@@ -63,7 +63,8 @@ def viewer(
     variant : str
         What the keys of a dict are, such as "number of samples".
     shape : Shape, DelaunayShape or Polyball, or dict of these, optional
-        To be shown around a `Skeleton`; a dict has one for each key of `source`.
+        To be shown around a `Skeleton`, or, in the plane, as an outline over a `Polyball`; a dict has one for
+        each key of `source`.
     view : (elevation, azimuth) in degrees, or dict, optional
         Where the camera stands in 3D, as for ``ax.view_init`` (``elev``, ``azim``, ``vertical_axis``); by
         default where parts of the skeleton hide each other least.
