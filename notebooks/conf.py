@@ -44,6 +44,7 @@ Path(external_toc_path).write_text(json.dumps(BOOK["toc"]), encoding="utf-8")
 
 # The reference is read from the code, which is not run: the book needs no library to be built.
 API = runpy.run_path(str(ROOT / "tools" / "api.py"))
+toc_object_entries_show_parents = "hide"
 default_role = "code"  # of docstrings: `name`
 
 nb_execution_mode = "off"  # the pages are the notebooks as committed; `make test` runs them and compares

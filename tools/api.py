@@ -143,7 +143,7 @@ def page(room: str) -> str:
     """The page of one room, in MyST."""
     face = PACKAGE / room / "__init__.py"
     about = ast.get_docstring(ast.parse(face.read_text(encoding="utf-8"))).split("\nExamples\n")[0]
-    lines = [re.sub(r"(?<!`)`(?!`)", "`", about), ""]
+    lines = [f"What stands in `polyskel_lite.{room}`.", "", about, ""]
     if used := chapters(room):
         lines += ["**In the chapters:** " + ", ".join(f"{{doc}}`{name}`" for name in used) + ".", ""]
     entries = [entry(name, room, home(room, module)) for name, module in public(room)]

@@ -39,10 +39,14 @@ PATIENCE = 30_000  # milliseconds before a step that never comes counts as faile
 
 
 def pages() -> list[str]:
-    """Every page of the book by name, from book.toml, and the two that Sphinx adds."""
+    """The pages of the book by name, from book.toml, and the two that Sphinx adds.
+
+    Those of the reference are made alike: a few of them stand for all.
+    """
     toc = tomllib.loads((ROOT / "book.toml").read_text(encoding="utf-8"))["toc"]
     chapters = [chapter["file"] for part in toc["parts"] for chapter in part["chapters"]]
-    return [toc["root"], *chapters, "genindex", "search"]
+    alike = {name for name in chapters if name.startswith("api_")} - {"api_shapes", "api_drawing"}
+    return [toc["root"], *(name for name in chapters if name not in alike), "genindex", "search"]
 
 
 def chromium() -> str | None:
