@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 from .. import drawing
 from ..errors import InputError
+from ..exact import components
 from ..polyballs import Polyball
 from ..skeletons import free_edges
 from .registry import paper_figure
@@ -24,7 +25,7 @@ RADII_11 = np.array([1.0, 0.95, 1.02, 0.8, 0.55, 0.6, 0.6])
 
 
 #: From where a panel of figure 12 is seen, if not as all others are: on its sheet, and not along it.
-CAMERAS_12 = {4: {"elev": 50, "azim": -70}}
+CAMERAS_12 = {4: {"elev": 40, "azim": -38}}
 
 
 def examples_12() -> list[Polyball]:
@@ -40,7 +41,7 @@ def examples_12() -> list[Polyball]:
     golden = (1 + 5**0.5) / 2
     corners = [(0, a, b * golden) for a in (-1, 1) for b in (-1, 1)]
     cage = np.concatenate([np.roll(corners, k, axis=1) for k in range(3)]) / np.hypot(1, golden)
-    heap = [(0, 0, 0), (1.3, 0, 0), (0.65, 1.1, 0), (1.95, 1.1, 0), (2.9, 1.6, 0), (-0.9, -0.5, 0)]
+    heap = [(0, 0, 0), (1.3, 0, 0), (0.65, 1.1, 0), (1.95, 1.1, 0), (1.75, -0.95, 0), (0.2, 2.05, 0)]
     return [
         Polyball([(0, 0, 0), (1.3, 0, 0)], [1, 0.8]),
         Polyball([(0, 0, 0), (1.3, 0, 0), (0.65, 1.1, 0)], [1, 0.9, 1]),
@@ -229,12 +230,13 @@ def figure_12(polyballs=None) -> Figure:
         ax.view_init(**drawing.VIEW | CAMERAS_12.get(k, {}))
         # Many dots and circles, some of them in a hollow, hide the skeleton.
         few = len(polyball.singular_points()) <= 12
-        draw_with_skeleton(ax, polyball, singular=few, circles=few)
+        hollow = polyball.skeleton().betti()[2] > 0
+        draw_with_skeleton(ax, polyball, window=hollow, singular=few, circles=few)
         drawing.fill_panel(ax, polyball.patches()[0], share=0.92)
     return fig
 
 
-def draw_with_skeleton(ax, polyball: Polyball, **glass):
+def draw_with_skeleton(ax, polyball: Polyball, window: bool = False, **glass):
     """A polyball in space as glass with its skeleton inside: polygons with their sides, lines, lone points.
 
     Parameters
@@ -242,6 +244,8 @@ def draw_with_skeleton(ax, polyball: Polyball, **glass):
     ax : Axes
         Three-dimensional.
     polyball : Polyball
+    window : bool
+        Leave out the polygons in front, all but their sides, so that the hollow of a closed skeleton is seen.
     **glass
         Handed on to `polyskel_lite.drawing.draw_polyball_3d`.
 
@@ -254,10 +258,26 @@ def draw_with_skeleton(ax, polyball: Polyball, **glass):
     """
     skeleton = polyball.skeleton()
     drawing.draw_polyball_3d(ax, polyball, **glass)
-    drawing.draw_facets_3d(
-        ax, skeleton.vertices, skeleton.polygons, kind="sk0", color="#E98B4E", edges=True, zorder=4
-    )
+    polygons = list(skeleton.polygons)
+    if window:
+        up, turn = np.radians([ax.elev, ax.azim])
+        depth = skeleton.vertices @ [np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up)]
+        front = [polygon for polygon in polygons if depth[polygon].mean() > depth.mean()]
+        polygons = [polygon for polygon in polygons if depth[polygon].mean() <= depth.mean()]
+        drawing.draw_facets_3d(ax, *_enclosed(polyball), color="#AEB8BF", edges=False, zorder=4.2)
+        sides = [skeleton.vertices[[*polygon, polygon[0]]] for polygon in front]
+        drawing.draw_lines_3d(ax, sides, "sk0", linewidths=0.9, zorder=4.4)
+    drawing.draw_facets_3d(ax, skeleton.vertices, polygons, kind="sk0", color="#E98B4E", edges=True, zorder=4)
     drawing.draw_lines_3d(ax, skeleton.segments()[free_edges(skeleton)], "sk0", linewidths=2.2, zorder=4.5)
     lone = np.setdiff1d(np.arange(len(skeleton.vertices)), skeleton.edges)
     drawing.draw_samples_3d(ax, skeleton.vertices[lone], kind="sk0", marker="o", markersize=5, zorder=5)
     return ax
+
+
+def _enclosed(polyball: Polyball) -> tuple[np.ndarray, np.ndarray]:
+    """The parts of the boundary that others enclose: points, and triangles. The highest point is of none."""
+    vertices, triangles, _ = polyball.patches()
+    # Patches have points of their own: those at one place are one, for this purpose.
+    _, place = np.unique(vertices.round(9), axis=0, return_inverse=True)
+    label = components(place.max() + 1, place[triangles[:, [0, 1, 1, 2]]].reshape(-1, 2))[1][place]
+    return vertices, triangles[label[triangles[:, 0]] != label[vertices[:, 2].argmax()]]

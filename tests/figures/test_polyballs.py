@@ -44,6 +44,15 @@ def test_figure_12_shows_points_segments_and_polygons():
     assert skeletons[5].betti() == (1, 0, 1)
 
 
+def test_what_the_cage_encloses_is_its_hollow():
+    cage, row = polyballs.examples_12()[5], polyballs.examples_12()[2]
+    vertices, triangles = polyballs._enclosed(cage)
+    hollow = np.linalg.norm(vertices[triangles], axis=2)
+    assert 0 < hollow.min() < hollow.max() < 0.5 < np.linalg.norm(cage.skeleton().vertices, axis=1).min()
+    assert len(triangles) < len(cage.patches()[1]) / 2
+    assert not len(polyballs._enclosed(row)[1])
+
+
 @pytest.mark.parametrize("wrong", [[], [psl.Polyball([(0, 0)], [1])], 7 * [psl.Polyball([(0, 0, 0)], [1])]])
 def test_figure_12_refuses_what_it_cannot_show(wrong):
     with pytest.raises(psl.InputError, match="one to six"):
