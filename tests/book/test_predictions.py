@@ -73,7 +73,9 @@ class TestQuestionsOfAChapter:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         said = [QUESTION.sub(lambda found: found["asked"], prose(path))]
         said += ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
-        said += ["".join(output.get("text", "")) for cell in cells for output in cell.get("outputs", [])]
+        outputs = [output for cell in cells for output in cell.get("outputs", [])]
+        said += ["".join(output.get("text", "")) for output in outputs]
+        said += ["".join(output.get("data", {}).get("text/plain", "")) for output in outputs]  # tables
         there = {number.replace(",", "") for number in NUMBER.findall(" ".join(said))}
         there |= COMPUTED_THERE.get(path.stem, set())
         for found in QUESTION.finditer(prose(path)):
