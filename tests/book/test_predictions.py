@@ -73,9 +73,8 @@ class TestQuestionsOfAChapter:
         cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         said = [QUESTION.sub(lambda found: found["asked"], prose(path))]
         said += ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
-        outputs = [output for cell in cells for output in cell.get("outputs", [])]
-        said += ["".join(output.get("text", "")) for output in outputs]
-        said += ["".join(output.get("data", {}).get("text/plain", "")) for output in outputs]  # tables
+        for output in (output for cell in cells for output in cell.get("outputs", [])):
+            said += ["".join(output.get("text", "")), "".join(output.get("data", {}).get("text/plain", ""))]
         there = {number.replace(",", "") for number in NUMBER.findall(" ".join(said))}
         there |= COMPUTED_THERE.get(path.stem, set())
         for found in QUESTION.finditer(prose(path)):
