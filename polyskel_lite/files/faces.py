@@ -26,7 +26,9 @@ def off_faces(text: str) -> tuple[np.ndarray, list[list[int]]]:
     body = lines[1:] if counts else lines[2:]
     n, m = map(int, (counts or lines[1])[:2])
     faces = [[int(word) for word in words[1 : 1 + int(words[0])]] for words in body[n : n + m]]
-    if len(faces) < m or any(len(face) != int(words[0]) for face, words in zip(faces, body[n:], strict=False)):
+    if len(faces) < m or any(
+        len(face) != int(words[0]) for face, words in zip(faces, body[n:], strict=False)
+    ):
         raise InputError("it ends before its last face; save it again.")
     return np.array([words[:3] for words in body[:n]], dtype=float).reshape(n, 3), faces
 
@@ -52,7 +54,7 @@ def obj_faces(text: str) -> tuple[np.ndarray, list[list[int]]]:
 
 
 def triangles(points: np.ndarray, faces: Sequence) -> np.ndarray:
-    """Cut faces into triangles, (m, 3), in their order; concave ones by mapbox_earcut, in their plane.
+    """Cut faces into triangles, (m, 3), in their order; concave ones by manifold3d, in their plane.
 
     Examples
     --------
@@ -70,7 +72,9 @@ def triangles(points: np.ndarray, faces: Sequence) -> np.ndarray:
             along = np.roll(corners, -1, axis=1) - corners
             turns = np.cross(along, np.roll(along, -1, axis=1))
             # Twice the area of the face as a vector (Newell), which also says where a crooked one faces.
-            normal = np.cross(corners - corners[:, :1], np.roll(corners, -1, axis=1) - corners[:, :1]).sum(axis=1)
+            normal = np.cross(corners - corners[:, :1], np.roll(corners, -1, axis=1) - corners[:, :1]).sum(
+                axis=1
+            )
             for k in np.flatnonzero(((turns * normal[:, None]).sum(axis=2) < 0).any(axis=1)):
                 fan[k] = block[k][_cut(corners[k], normal[k])]
         parts.append(fan.reshape(-1, 3))
@@ -83,17 +87,14 @@ def triangles(points: np.ndarray, faces: Sequence) -> np.ndarray:
 def _cut(corners: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """Triangles of one concave face, seen along the axis nearest to its normal."""
     try:
-        from mapbox_earcut import triangulate_float64
+        from manifold3d import triangulate
     except ImportError:
-        raise InputError("a face is not convex; to cut it run: pip install mapbox_earcut") from None
+        raise InputError(
+            'a face is not convex; cutting it needs manifold3d, run: pip install "polyskel-lite[mend]"'
+        ) from None
     axis = int(np.abs(normal).argmax())
-    flat = np.delete(corners, axis, axis=1)
-    if (normal[axis] > 0) == (axis == 1):  # the two axes that are left would see it from behind
-        flat = flat[:, ::-1]
-    found = triangulate_float64(np.ascontiguousarray(flat), np.array([len(flat)], dtype=np.uint32))
-    if len(found) != 3 * (len(flat) - 2):
+    flat = np.roll(corners, -1 - axis, axis=1)[:, :2] * (1, np.sign(normal[axis]))
+    found = np.array(triangulate([flat]), dtype=np.int64)
+    if len(found) != len(flat) - 2:
         raise InputError("a face with more than three corners crosses itself; save triangles.")
-    found = found.reshape(-1, 3).astype(np.int64)
-    a, b, c = flat[found].transpose(1, 0, 2)
-    turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-    return np.where((turn < 0)[:, None], found[:, ::-1], found)
+    return found

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..checks import as_floats
 from ..errors import InputError, LeftOutWarning
-from .svg import Area, distinct
+from .areas import Area, distinct
 
 
 def geojson_areas(path: Path) -> list[Area]:

@@ -204,5 +204,7 @@ def _silhouette(pixels: np.ndarray, level: float) -> tuple[np.ndarray, str, bool
 
 def _commonest(colours: np.ndarray) -> np.ndarray:
     """The colour that most of some colours (k, 3) are near."""
-    _, kind, count = np.unique((colours * 16).astype(int) @ (1, 32, 1024), return_inverse=True, return_counts=True)
+    _, kind, count = np.unique(
+        (colours * 16).astype(int) @ (1, 32, 1024), return_inverse=True, return_counts=True
+    )
     return np.median(colours[kind == count.argmax()], axis=0)

@@ -1,36 +1,22 @@
-"""Files and pictures to arrays, through well-kept readers.
-
-Outlines come from GeoJSON (the standard library), SVG (svgpathtools) and pictures (Pillow, contours
-by contourpy), solids from mesh files (trimesh). Whatever the source of an outline, rings inside rings
-are holes (even-odd), and up is up: the rows of pictures and the y axis of SVG, which run downward, are
-flipped.
-"""
+"""Files to arrays, through well-kept readers, whatever the file is."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
 
-from ..checks import as_flag, as_floats, as_number, as_path, shown
+from ..checks import as_path, shown
 from ..errors import InputError, PolyskelError
 from .arrays import read_arrays
+from .geojson import geojson_areas
 from .meshes import MESH_SUFFIXES, read_mesh
-from .svg import distinct, svg_rings
+from .pictures import PICTURES, picture_rings
+from .svg import svg_areas
 
-_PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp", ".pgm", ".pbm", ".ppm")
-# Only these are tried, whatever the file is called: Pillow would start Ghostscript for PostScript.
-_FORMATS = ("PNG", "JPEG", "BMP", "GIF", "TIFF", "WEBP", "PPM")
 #: Bytes of a file: parsing text takes ten times as much memory.
 MOST_BYTES = 2**28
-#: Pixels of a picture: contours of more take minutes. 16 million are 4000 x 4000.
-MOST_PIXELS = 16_000_000
-# Values nearer to the level than this share of the largest difference are moved away from it.
-_NUDGE = 1e-4
 
 
 def read_file(
@@ -39,16 +25,20 @@ def read_file(
     tolerance: float = 1e-3,
     level: float = 0.5,
     smooth: float = 0.0,
-    invert: bool = False,
+    invert: bool | str = "auto",
+    stroke: bool = False,
 ) -> tuple[str, tuple]:
     """Read a boundary from a file; the suffix says how.
 
-    - ``.geojson``, ``.json``: all Polygons and MultiPolygons, alone, in Features or in collections.
-      Longitude and latitude are taken as plane coordinates: project them first where that matters.
-    - ``.svg``: all closed paths and basic shapes, transforms applied, in user units, y upward. Needs
-      ``pip install svgpathtools``.
-    - ``.png``, ``.jpg`` and other pictures: the silhouette, in pixels (see `trace`). It is the
-      opaque part if the picture is transparent anywhere, otherwise the dark part.
+    - ``.geojson``, ``.json``: all Polygons and MultiPolygons, alone, in Features or in collections; points
+      and lines are left out, which a warning counts. Longitude and latitude are taken as plane coordinates:
+      project them first where that matters.
+    - ``.svg``: what a renderer fills, in any colour, in user units, y upward: overlapping elements are
+      united, open paths closed, what is hidden, clipped or outside of the frame is left out. Paths, basic
+      shapes and transforms need ``pip install svgpathtools``, everything else the extra ``svg``. Text,
+      images, masks and filters are named in a warning.
+    - ``.png``, ``.jpg`` and other pictures: the silhouette, in pixels (see `trace`). It is the opaque part
+      of a picture with a transparent ground, otherwise what differs from the border.
     - ``.stl``, ``.ply``, ``.obj``, ``.off``: a closed triangle mesh (see `read_mesh`). Needs
       ``pip install trimesh``.
     - ``.npz``: the arrays ``points`` and ``facets`` of a `Shape`, or ``xy`` and ``off`` (the vertices
@@ -60,27 +50,26 @@ def read_file(
     tolerance : float
         SVG only: how far the polygon may leave a curve, as a share of the diagonal of the drawing.
     level, smooth : float
-        Pictures only: see `trace`. The values are opacity or darkness, from 0 to 1.
-    invert : bool
-        Pictures only: take the transparent or bright part.
+        Pictures only: see `trace`. The values go from 0 for the tone of the ground to 1 for that of the
+        shape, so that the outline is half way between them; with more than two tones they are darkness.
+    invert : bool or "auto"
+        Pictures only. False takes the dark or opaque part, True the other one; "auto" the bright part if
+        the border is dark, and says so in a warning.
+    stroke : bool
+        SVG only: whether lines count too, with their widths. Without it a drawing in which nothing is
+        filled is read by its closed lines.
 
     Returns
     -------
-    kind : "rings", "mesh" or "facets"
-        What the arrays are: arguments of `Shape.from_rings`, of `Shape.from_mesh` or of `Shape` itself.
+    kind : "rings", "areas", "drawing", "mesh" or "facets"
+        What the arrays are: arguments of `Shape.from_rings`, of `Shape.from_mesh` or of `Shape` itself; or
+        from GeoJSON and SVG a list of `Area`, whose rings have names for messages.
     arrays : tuple
-        Outlines from GeoJSON and SVG come with the names of their rings, for messages.
 
     Raises
     ------
     InputError
         If the file is missing, empty, broken or too large, has no closed outline, or is of a kind not read.
-
-    Notes
-    -----
-    An SVG path that does not end where it begins is refused, unless it is drawn with fill "none":
-    then it is a stroke and left out, as lines are. Other strokes count by their path, without width.
-    A background rectangle is an outline like any other. Text, clipping and ``<use>`` are not followed.
 
     Examples
     --------
@@ -89,13 +78,13 @@ def read_file(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = pathlib.Path(folder) / "square.geojson"
     ...     _ = file.write_text(json.dumps(square))
-    ...     kind, (rings, names) = read_file(file)
-    >>> kind, names, rings[0].tolist()
-    ('rings', ['ring 0'], [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
+    ...     kind, ((area,),) = read_file(file)
+    >>> kind, area.names, area.rings[0].tolist()
+    ('areas', ['ring 0'], [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     """
     path = as_path(path)
     suffix = path.suffix.lower()
-    known = (".geojson", ".json", ".svg", ".npz", *MESH_SUFFIXES, *_PICTURES)
+    known = (".geojson", ".json", ".svg", ".npz", *MESH_SUFFIXES, *PICTURES)
     if suffix not in known:
         raise InputError(f"no reader for {suffix[:9] or 'no suffix'!r}; it reads {', '.join(known)}.")
     try:
@@ -109,9 +98,11 @@ def read_file(
             return _read_npz(path)
         if suffix in MESH_SUFFIXES:
             return "mesh", read_mesh(path)
-        if suffix in _PICTURES:
-            return "rings", (_read_picture(path, level, smooth, invert),)
-        return "rings", (svg_rings(path, tolerance) if suffix == ".svg" else _geojson_rings(path))
+        if suffix in PICTURES:
+            return "rings", (picture_rings(path, level, smooth, invert),)
+        if suffix == ".svg":
+            return "drawing", (svg_areas(path, tolerance, stroke),)
+        return "areas", (geojson_areas(path),)
     except PolyskelError:
         raise
     except Exception as error:  # the readers raise whatever a broken file makes them stumble over
@@ -135,5 +126,3 @@ def _read_npz(path: Path) -> tuple[str, tuple]:
     raise InputError(
         f"its arrays are {', '.join(sorted(arrays)) or 'none'}; it needs points and facets, or xy and off."
     )
-
-
