@@ -26,10 +26,11 @@ from .usvg import normalised, stroked
 #: Vertices of all outlines together: a polygon of more is no longer a drawing.
 MOST_VERTICES = 1_000_000
 # What is named in a warning, and what takes more than is read here.
-_LEFT_OUT = ("text", "image", "foreignObject", "mask", "filter")
+_LEFT_OUT = ("text", "image", "foreignObject", "mask", "filter", "pattern")
 _BEYOND = ("style", "use", "switch")
 _BEYOND_ATTRIBUTES = {"clip-path", "marker", "marker-start", "marker-mid", "marker-end", "transform-origin"}
 _BEYOND_ATTRIBUTES |= {"systemLanguage", "requiredExtensions", "requiredFeatures"}
+_UNITS = {"": 1, "px": 1, "pt": 4 / 3, "pc": 16, "mm": 96 / 25.4, "cm": 96 / 2.54, "in": 96}
 _CLEAR = re.compile(r"transparent|rgba|hsla|/|^#(.{4}|.{8})$")
 
 
@@ -93,7 +94,7 @@ def svg_areas(path: str | PathLike, tolerance: float = 1e-3, stroke: bool = Fals
         if stroke:
             raise _Beyond("the width of lines")
         _check_plain(root)
-        parts, drawn = list(_parts(root, np.eye(3), {}, (), tools)), root
+        parts = list(_parts(root, np.eye(3), {}, (), tools))
     except _Beyond as what:
         drawn = normalised(path, root, str(what))
         clips = {f"url(#{e.get('id')})": e for e in drawn.iter() if _tag(e) == "clipPath"}
@@ -105,7 +106,7 @@ def svg_areas(path: str | PathLike, tolerance: float = 1e-3, stroke: bool = Fals
             path.name, "nothing in it is filled: lines are taken as outlines; stroke=True reads their width"
         )
     areas = _areas([part for part in filled or parts if part.subpaths], tolerance)
-    return _framed(areas, _frame(root, drawn))
+    return _framed(areas, _frame(root))
 
 
 def _areas(parts: list[_Part], tolerance: float) -> list[Area]:
@@ -172,8 +173,10 @@ def _tell_left_out(name: str, root) -> None:
     hidden = {id(inner) for element in root.iter() if _tag(element) == "defs" for inner in element.iter()}
     seen = [element for element in root.iter() if id(element) not in hidden]
     count = Counter(_tag(e) for e in seen if _tag(e) in _LEFT_OUT[:3])
-    for word in _LEFT_OUT[3:]:
+    for word in _LEFT_OUT[3:5]:
         count[word] = sum(_properties(e).get(word, "none") != "none" for e in seen)
+    patterns = {f"url(#{e.get('id')})" for e in root.iter() if _tag(e) == "pattern"}
+    count["pattern"] = sum(_properties(e).get("fill") in patterns for e in seen)
     left = ", ".join(f"{count[word]} {word}" for word in _LEFT_OUT if count[word])
     if left:
         _warn(name, f"not followed: {left}; turn them into paths if they matter")
@@ -295,21 +298,20 @@ def _closed(pieces: list) -> bool:
 # --- the frame ------------------------------------------------------------------------------------
 
 
-def _frame(root, drawn) -> np.ndarray | None:
+def _frame(root) -> np.ndarray | None:
     """The corners of the picture in user units, y upward; None if the file does not say."""
-    sizes = [re.fullmatch(r"\s*([\d.eE+-]+)\s*(px)?\s*", root.get(side, "")) for side in ("width", "height")]
-    numbers = [float(size[1]) for size in sizes if size]
+    sizes = [re.fullmatch(r"\s*([\d.]+)\s*([a-z]*)\s*", root.get(side, "")) for side in ("width", "height")]
+    given = [float(size[1]) * _UNITS.get(size[2], np.nan) for size in sizes if size]
+    if len(given) == 2 and not min(given) > 0:
+        given = []
     if "viewBox" in root.attrib:
         x, y, w, h = map(float, re.split(r"[\s,]+", root.get("viewBox").strip()))
-        if len(numbers) == 2 and min(w, h, *numbers) > 0 and root.get("preserveAspectRatio") is None:
-            scale = min(numbers[0] / w, numbers[1] / h)
-            more = np.array([numbers[0] / scale - w, numbers[1] / scale - h])
+        if len(given) == 2 and min(w, h) > 0 and root.get("preserveAspectRatio") is None:
+            scale = min(given[0] / w, given[1] / h)
+            more = np.array([given[0] / scale - w, given[1] / scale - h])
             (x, y), (w, h) = (x, y) - more / 2, (w, h) + more
-    elif {"width", "height"} <= root.attrib.keys():
-        x, y = 0.0, 0.0
-        w, h = (
-            numbers if len(numbers) == 2 else [float(drawn.get(side, "nan")) for side in ("width", "height")]
-        )
+    elif len(given) == 2:
+        (x, y), (w, h) = (0.0, 0.0), given
     else:
         return None
     return np.array([(x, -y - h), (x + w, -y - h), (x + w, -y), (x, -y)]) if min(w, h) > 0 else None

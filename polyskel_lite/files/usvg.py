@@ -56,7 +56,8 @@ def normalised(path: Path, root, what: str):
             run_usvg.main(["--skip-system-fonts", "--quiet", str(before), str(after)], standalone_mode=False)
         if not after.exists():
             raise InputError(f"usvg cannot read it (it has {what}); save it again as plain SVG.")
-        return ElementTree.parse(after).getroot()
+        text = after.read_text(encoding="utf-8")  # usvg 0.31 may write this prefix without a namespace for it
+        return ElementTree.fromstring(text.replace(" xlink:href=", " href="))
 
 
 def _move_clip_transforms(root) -> None:
