@@ -20,7 +20,7 @@ MOST_PIXELS = 16_000_000
 _NUDGE = 1e-4
 # How bright a colour is; colours that differ by less are one; how far others may be from between two tones.
 _GREY = np.array([0.299, 0.587, 0.114])
-_ONE_TONE = 8 / 255
+_ONE_TONE = 3 / 255
 _OFF_TONES = 0.2
 
 
@@ -85,7 +85,7 @@ def trace(image, level: float | None = None, smooth: float = 0.0) -> list[np.nda
 
 def _half_way(values: np.ndarray) -> float:
     low, high = float(values.min()), float(values.max())
-    if 0 <= low and high <= 1 and (values % 1).any():
+    if low >= 0 and high <= 1 and (values % 1).any():
         return 0.5
     return (low + high) / 2 if low < high else high / 2 if high > 0 else 0.5
 

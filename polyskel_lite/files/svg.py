@@ -111,7 +111,9 @@ def svg_areas(path: str | PathLike, tolerance: float = 1e-3, stroke: bool = Fals
 
 def _areas(parts: list[_Part], tolerance: float) -> list[Area]:
     if not parts:
-        raise InputError("there is no closed path in it; turn text and strokes into paths and save it again.")
+        raise InputError(
+            "there is no closed path in it; turn text into paths, or pass stroke=True for lines."
+        )
     rough = np.concatenate([_polygon(s, part.matrix, np.inf) for part in parts for s in part.subpaths])
     chord = tolerance * float(np.hypot(*np.ptp(rough, axis=0)))
     if chord == 0:
@@ -308,8 +310,8 @@ def _frame(root) -> np.ndarray | None:
         x, y, w, h = map(float, re.split(r"[\s,]+", root.get("viewBox").strip()))
         if len(given) == 2 and min(w, h) > 0 and root.get("preserveAspectRatio") is None:
             scale = min(given[0] / w, given[1] / h)
-            more = np.array([given[0] / scale - w, given[1] / scale - h])
-            (x, y), (w, h) = (x, y) - more / 2, (w, h) + more
+            wider, higher = given[0] / scale - w, given[1] / scale - h
+            x, y, w, h = x - wider / 2, y - higher / 2, w + wider, h + higher
     elif len(given) == 2:
         (x, y), (w, h) = (0.0, 0.0), given
     else:

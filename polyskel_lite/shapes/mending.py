@@ -8,8 +8,8 @@ import numpy as np
 
 from ..checks import as_flag, as_indices, as_points
 from ..files import read_file
+from .reading import mended
 from .shape import Shape
-from .welding import mended
 
 
 def mend(
@@ -25,14 +25,15 @@ def mend(
     Parameters
     ----------
     boundary : list of (k, 2) array-like, tuple (V, F), or path
-        Rings, of any orientation, as for `Shape.from_rings`; vertices (n, 3) and triangles (m, 3) of a mesh; or a
-        file, as for `Shape.from_file`.
+        Rings, of any orientation, as for `Shape.from_rings`; vertices (n, 3) and triangles (m, 3) of a mesh;
+        or a file, as for `Shape.from_file`.
     tolerance : float, optional
-        Vertices nearer to each other are one. By default a millionth of the size of rings; a hundred-thousandth
-        of that of a mesh, of which only vertices at gaps are merged.
+        Vertices nearer to each other are one. By default a millionth of the size of rings, or the power of
+        ten below that, and up to a hundred times as much where that leaves narrow seams; a hundred-thousandth
+        of the size of a mesh, of which only vertices at gaps are merged.
     width : float, optional
         Rings only: how wide the boundary is opened where it touches itself, which cuts the shape apart
-        there. By default a ten-thousandth of the size; 0 leaves it, and then it is refused.
+        there. By default a ten-thousandth of the size, or the power of ten below; 0 leaves it, and then it is refused.
     largest : bool
         Keep the part with the largest area or volume only.
     least : float
@@ -63,7 +64,7 @@ def mend(
     >>> squares = [[(0, 0), (2, 0), (2, 2), (0, 2)], [(1, 1), (3, 1), (3, 3), (1, 3)]]
     >>> shape, report = mend(squares)
     >>> shape.area(), report
-    (7.0, {'rings': 2, 'overlaps united': 1, 'outlines': 1})
+    (7.0, {'rings': 2, 'outlines': 1})
     """
     if isinstance(boundary, (str, PathLike)):
         kind, arrays = read_file(boundary)
@@ -73,4 +74,4 @@ def mend(
     else:
         kind, arrays = "rings", (boundary,)
     kind, arrays, report = mended(kind, arrays, tolerance, width, as_flag(largest, "largest"), least)
-    return Shape(*arrays) if kind != "rings" else Shape.from_rings(*arrays), report
+    return (Shape.from_rings if kind == "rings" else Shape)(*arrays), report

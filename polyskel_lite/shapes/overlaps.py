@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ..checks import as_number
-from ..errors import DuplicatePointError, InputError, ShapeError
+from ..errors import InputError
 from ..exact import locate
 from ..files import Area
 from .rings import check_meetings, may_surround, ring_facets, turn_of
@@ -35,38 +34,6 @@ def library(name: str):
         return importlib.import_module(name)
     except ImportError:
         raise InputError(f'mending needs {name}; run: pip install "polyskel-lite[mend]"') from None
-
-
-def missing(*names: str) -> list[str]:
-    """Those of some packages that are not installed.
-
-    Examples
-    --------
-    >>> missing("scipy", "no_such_package")
-    ['no_such_package']
-    """
-    return [name for name in names if importlib.util.find_spec(name) is None]
-
-
-@contextmanager
-def telling_of_mend(*packages: str) -> Iterator[None]:
-    """Say in an error about a boundary that it could be mended, and what that takes.
-
-    Examples
-    --------
-    >>> with telling_of_mend("scipy"):
-    ...     raise ShapeError("the mesh is open.")
-    Traceback (most recent call last):
-    polyskel_lite.errors.ShapeError: the mesh is open. Or pass mend=True, see polyskel_lite.mend.
-    """
-    try:
-        yield
-    except (DuplicatePointError, ShapeError) as error:
-        install = (
-            ', after pip install "polyskel-lite[mend]"' if missing(*packages) else ", see polyskel_lite.mend"
-        )
-        error.args = (f"{error} Or pass mend=True{install}.", *error.args[1:])
-        raise
 
 
 def shown_rings(areas: Sequence[Area]) -> tuple[list, list[str]]:
@@ -140,47 +107,64 @@ def mended_rings(
     --------
     >>> square = np.array([(0, 0), (2, 0), (2, 2), (0, 2)], dtype=float)
     >>> areas = [Area([square + k], [f"square {k}"], "nonzero") for k in (0, 1)]
-    >>> rings, names, report = mended_rings(areas)  # doctest: +SKIP
-    >>> len(rings[0]), report  # doctest: +SKIP
-    (8, {'rings': 2, 'outlines': 1, 'overlaps united': 1})
+    >>> rings, names, report = mended_rings(areas)
+    >>> len(rings[0]), report
+    (8, {'rings': 2, 'outlines': 1})
     """
     shapely = library("shapely")
-    given = np.concatenate([ring for area in areas for ring in area.rings])
-    owner = [name for area in areas for name, ring in zip(area.names, area.rings, strict=True) for _ in ring]
+    every = list(_with_clips(areas))
+    given = np.concatenate([ring for area in every for ring in area.rings])
+    owner = [name for area in every for name, ring in zip(area.names, area.rings, strict=True) for _ in ring]
     size = float(np.hypot(*np.ptp(given, axis=0)))
-    grid = _length(tolerance, "tolerance", TOLERANCE, size)
     width = _length(width, "width", WIDTH, size)
     least = as_number(least, "least", "an area", 0)
-    regions = [_region(shapely, area, grid) for area in areas]
-    whole = shapely.set_precision(shapely.union_all(regions, grid_size=grid), grid)
     report = {"rings": sum(len(area.rings) for area in areas)}
-    overlap = sum(shapely.area(regions)) - whole.area > grid * size
-    report["overlaps united"] = int(overlap)
-    report["vertices merged"] = len(np.unique(given, axis=0)) - len(np.unique(np.round(given / grid), axis=0))
-    for step in range(_OPENINGS if width else 0):
-        if not len(pinches := _pinches(shapely, whole, grid)):
+    finest = _length(tolerance, "tolerance", TOLERANCE, size)
+    for grid in (finest,) if tolerance else (finest, 10 * finest, 100 * finest):
+        regions = [_region(shapely, area, grid) for area in areas]
+        whole = shapely.set_precision(shapely.union_all(regions, grid_size=grid), grid)
+        whole, opened, left = _opened(shapely, whole, grid, width)
+        if not (left and width):  # else there is a seam, narrower than the cuts and wider than the grid
             break
-        report["pinches opened"] = report.get("pinches opened", 0) + len(pinches)
-        cut = shapely.union_all(shapely.polygons(pinches[:, None] + 1.5**step * width * _CUT))
-        whole = shapely.difference(whole, cut, grid_size=grid)
+    merged = len(np.unique(given, axis=0)) - len(np.unique(np.round(given / grid), axis=0))
+    report |= {"vertices merged": merged, "pinches opened": opened}
     parts = shapely.get_parts(whole)
-    parts = parts[shapely.get_dimensions(parts) == 2]
+    parts = parts[shapely.area(parts) > 0]
     area = shapely.area(parts)
     kept = parts[area == area.max()][:1] if largest and len(parts) else parts[area >= least]
     report["parts left out"] = len(parts) - len(kept)
     if not len(kept):
-        raise InputError(
-            f"nothing encloses more than {grid:.3g} in both directions; lower tolerance or least."
-        )
+        raise InputError(f"nothing that is left is wider than {grid:.3g}; lower tolerance or least.")
     outlines = [shapely.get_coordinates(ring)[:-1] for ring in shapely.get_rings(kept)]
     report["outlines"] = len(outlines)
     rings, names = _given_back(outlines, given, owner, grid)
     return rings, names, {what: count for what, count in report.items() if count}
 
 
+def _with_clips(areas) -> Iterator[Area]:
+    for area in areas:
+        yield area
+        for clip in area.clips:
+            yield from _with_clips(clip)
+
+
+def _opened(shapely, whole, grid: float, width: float) -> tuple:
+    """The region cut where it touches itself; how often that was, and how often it still is."""
+    opened = 0
+    for step in range(_OPENINGS):
+        pinches = _pinches(shapely, whole, grid)
+        if not (len(pinches) and width):
+            break
+        opened += len(pinches)
+        cut = shapely.union_all(shapely.polygons(pinches[:, None] + 1.5**step * width * _CUT))
+        whole = shapely.difference(whole, cut, grid_size=grid)
+    return whole, opened, len(pinches)
+
+
 def _length(value, name: str, share: float, size: float) -> float:
-    what = "a length, in units of the vertices"
-    return share * size if value is None else as_number(value, name, what, 0, above=name == "tolerance")
+    if value is not None:
+        return as_number(value, name, "a length, in units of the vertices", 0, above=name == "tolerance")
+    return 10.0 ** np.floor(np.log10(share * size)) if size else 1.0  # decimal coordinates are on such a grid
 
 
 def _region(shapely, area: Area, grid: float):

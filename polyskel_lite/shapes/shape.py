@@ -10,17 +10,16 @@ from os import PathLike
 import numpy as np
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
-from ..errors import DuplicatePointError, InputError, PolyskelError, ShapeError, TessellationError
+from ..errors import InputError, ShapeError, TessellationError
 from ..exact import locate
-from ..files import read_file, trace, write_surface
+from ..files import trace, write_surface
 from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
 from .boundary import Boundary, only_in
 from .density import densified
 from .meshes import check_mesh, turned
-from .overlaps import mended_rings, missing, shown_rings, telling_of_mend
+from .reading import mended, read_shape, telling_of_mend
 from .rings import check_closed, check_meetings, check_turns, oriented, ring_facets
 from .sampling import sample_rings
-from .welding import mended
 
 
 def check_shape(shape) -> None:
@@ -186,7 +185,7 @@ class Shape(Boundary):
         ((1, 1), 8.0)
         """
         if as_flag(mend, "mend"):
-            _, (rings, names), _ = mended("rings", (rings, names))
+            rings, names = mended("rings", (rings, names))[1]
         rings, place = oriented(rings, names)
         shape = object.__new__(cls)
         with telling_of_mend("shapely"):
@@ -227,7 +226,7 @@ class Shape(Boundary):
         V = as_points(V, name="V", dimensions=(3,))
         F = as_indices(F, "facets", len(V), 3)
         if as_flag(mend, "mend"):
-            _, (V, F), _ = mended("mesh", (V, F))
+            V, F = mended("mesh", (V, F))[1]
         used, faces = np.unique(F, return_inverse=True)
         V, F = V[used], faces.reshape(-1, 3)
         with telling_of_mend("pymeshfix", "manifold3d"):
@@ -264,34 +263,7 @@ class Shape(Boundary):
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
-        path = as_path(path)
-        try:
-            kind, arrays = read_file(path, **options)
-            if as_flag(mend, "mend"):
-                kind, arrays, _ = mended(kind, arrays)
-            if kind == "mesh":
-                return cls.from_mesh(*arrays, turn=turn)
-            if kind == "facets":
-                return cls(*arrays)
-            return cls.from_rings(*arrays) if kind == "rings" else cls._from_areas(kind, *arrays)
-        except PolyskelError as error:
-            # The same error, but whoever reads the message has to know which file it is about.
-            error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
-            raise
-
-    @classmethod
-    def _from_areas(cls, kind: str, areas: list) -> Shape:
-        """The union of areas; those of a drawing may overlap, since a renderer draws their union."""
-        try:
-            if not any(area.clips for area in areas):
-                with telling_of_mend("shapely"):
-                    rings = shown_rings(areas)
-                return cls.from_rings(*rings)
-        except (DuplicatePointError, ShapeError):
-            if kind != "drawing" or missing("shapely"):
-                raise
-        rings, names, _ = mended_rings(areas)
-        return cls.from_rings(rings, names)
+        return read_shape(cls, as_path(path), turn, mend, options)
 
     def to_file(self, path: str | PathLike) -> None:
         """Write the boundary as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D also as STL or OFF.

@@ -1,4 +1,4 @@
-"""Meshes made closed and manifold: vertices welded, faces wound alike, holes closed, crossing parts united."""
+"""Meshes made closed and manifold: welded, wound alike, holes closed, crossing parts united."""
 
 from __future__ import annotations
 
@@ -9,30 +9,10 @@ from ..checks import as_number
 from ..errors import InputError, ShapeError
 from ..exact import components, meeting_faces
 from .meshes import signed_volume, surfaces_of, turn_of_surface, turned, twin_faces
-from .overlaps import library, mended_rings
-from .rings import cleaned
+from .overlaps import library
 
 #: What is welded by default, as a share of the size; and how many edges a hole that is closed may have.
 TOLERANCE, HOLE = 1e-5, 100
-
-
-def mended(kind: str, arrays: tuple, tolerance=None, width=None, largest=False, least=0.0):
-    """What `read_file` returns, mended: its kind, arrays that make a shape, and what was done.
-
-    Examples
-    --------
-    >>> kind, arrays, report = mended("rings", ([[(0, 0), (3, 0), (3, 3), (9, 3), (3, 3), (0, 3)]],))
-    >>> kind, len(arrays[0][0]), report
-    ('rings', 4, {'rings': 1, 'vertices merged': 1, 'outlines': 1})
-    """
-    if kind in ("mesh", "facets") and arrays[0].shape[1] == 3:
-        *arrays, report = mended_mesh(*arrays, tolerance, largest, least)
-        return "mesh", tuple(arrays), report
-    if kind == "facets":
-        return kind, arrays, {}
-    areas = [cleaned(*arrays)] if kind == "rings" else arrays[0]
-    *arrays, report = mended_rings(areas, tolerance, width, largest, least)
-    return "rings", tuple(arrays), report
 
 
 def mended_mesh(
