@@ -33,7 +33,8 @@ def mend(
         of the size of a mesh, of which only vertices at gaps are merged.
     width : float, optional
         Rings only: how wide the boundary is opened where it touches itself, which cuts the shape apart
-        there. By default a ten-thousandth of the size, or the power of ten below; 0 leaves it, and then it is refused.
+        there. By default a ten-thousandth of the size, or the power of ten below; 0 leaves it, and then it is
+        refused.
     largest : bool
         Keep the part with the largest area or volume only.
     least : float
