@@ -8,7 +8,7 @@ import numpy as np
 
 from ..checks import as_flag, as_indices, as_points
 from ..files import read_file
-from .reading import mended
+from .reading import mended, of_mended
 from .shape import Shape
 
 
@@ -75,4 +75,4 @@ def mend(
     else:
         kind, arrays = "rings", (boundary,)
     kind, arrays, report = mended(kind, arrays, tolerance, width, as_flag(largest, "largest"), least)
-    return (Shape.from_rings if kind == "rings" else Shape)(*arrays), report
+    return of_mended(Shape, kind, arrays), report

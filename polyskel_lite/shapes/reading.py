@@ -14,6 +14,8 @@ from .overlaps import mended_rings, shown_rings
 from .rings import cleaned
 from .welding import mended_mesh
 
+EXTRA = "polyskel-lite[mend]"
+
 
 def missing(*names: str) -> list[str]:
     """Those of some packages that are not installed.
@@ -27,8 +29,8 @@ def missing(*names: str) -> list[str]:
 
 
 @contextmanager
-def telling_of_mend(*packages: str) -> Iterator[None]:
-    """Say in an error about a boundary that it could be mended, and what that takes.
+def telling_of_mend(*packages: str, tried: bool = False) -> Iterator[None]:
+    """Say in an error about a boundary that it could be mended, and what that takes; or that it was tried.
 
     Examples
     --------
@@ -40,10 +42,10 @@ def telling_of_mend(*packages: str) -> Iterator[None]:
     try:
         yield
     except (DuplicatePointError, ShapeError) as error:
-        install = (
-            ', after pip install "polyskel-lite[mend]"' if missing(*packages) else ", see polyskel_lite.mend"
-        )
-        error.args = (f"{error} Or pass mend=True{install}.", *error.args[1:])
+        end = f'after pip install "{EXTRA}"' if missing(*packages) else "see polyskel_lite.mend"
+        hint = f" Or pass mend=True, {end}."
+        text = str(error).removesuffix(hint)
+        error.args = (text + (" That is after mending." if tried else hint), *error.args[1:])
         raise
 
 
@@ -79,6 +81,8 @@ def read_shape(cls, path: Path, turn: bool, mend: bool, options: dict):
         kind, arrays = read_file(path, **options)
         if as_flag(mend, "mend"):
             kind, arrays, _ = mended(kind, arrays)
+        if mend:
+            return of_mended(cls, kind, arrays)
         if kind == "mesh":
             return cls.from_mesh(*arrays, turn=turn)
         if kind == "facets":
@@ -88,6 +92,19 @@ def read_shape(cls, path: Path, turn: bool, mend: bool, options: dict):
         # The same error, but whoever reads the message has to know which file it is about.
         error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
         raise
+
+
+def of_mended(cls, kind: str, arrays: tuple):
+    """A shape of a class from what `mended` returns.
+
+    Examples
+    --------
+    >>> from polyskel_lite import Shape
+    >>> of_mended(Shape, "rings", ([[(0, 0), (3, 0), (3, 3)]],)).area()
+    4.5
+    """
+    with telling_of_mend("shapely", tried=True):
+        return (cls.from_rings if kind == "rings" else cls)(*arrays)
 
 
 def _of_areas(cls, kind: str, areas: list):

@@ -188,7 +188,7 @@ class Shape(Boundary):
             rings, names = mended("rings", (rings, names))[1]
         rings, place = oriented(rings, names)
         shape = object.__new__(cls)
-        with telling_of_mend("shapely"):
+        with telling_of_mend("shapely", tried=mend):
             shape._set(np.concatenate(rings), ring_facets([len(ring) for ring in rings]), place)
         return shape
 
@@ -229,7 +229,7 @@ class Shape(Boundary):
             V, F = mended("mesh", (V, F))[1]
         used, faces = np.unique(F, return_inverse=True)
         V, F = V[used], faces.reshape(-1, 3)
-        with telling_of_mend("pymeshfix", "manifold3d"):
+        with telling_of_mend("pymeshfix", "manifold3d", tried=mend):
             return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
 
     @classmethod

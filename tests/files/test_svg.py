@@ -189,7 +189,7 @@ DRAWN = {
     "corners that are not round": ('<rect x="2" y="2" width="10" height="6" rx="0" ry="0"/>', 60, (1, 0)),
     "corners too round": ('<rect width="10" height="6" rx="20"/>', 60 - (60 - np.pi * 15), (1, 0)),
     "class": (
-        '<style>.b{fill:none;stroke:red}</style><rect width="8" height="8"/><path class="b" d="M9 0L12 5V9"/>',
+        '<style>.b{fill:none;stroke:red}</style><rect width="8" height="8"/><path class="b" d="M9 0L9 5"/>',
         64,
         (1, 0),
     ),
