@@ -13,6 +13,7 @@ from .errors import (
     ContourContainmentError,
     DuplicatePointError,
     InputError,
+    LeftOutWarning,
     PolyskelError,
     ReconstructionError,
     ShapeError,
@@ -22,7 +23,7 @@ from .errors import (
 from .graphs import Tessellation, delaunay, gabriel
 from .pipeline import Bones, BranchCounts, branch_counts, skeleton
 from .polyballs import Polyball, Sk2Conditions, delaunay_balls, sk2_conditions
-from .shapes import Shape
+from .shapes import Shape, mend
 from .simplification import Hierarchy, hierarchy
 from .skeletons import Skeleton, branch_graph, directed_hausdorff, hausdorff, sk0, sk1, sk2, sk3, voronoi
 from .tables import table
@@ -36,6 +37,7 @@ __all__ = [
     "DuplicatePointError",
     "Hierarchy",
     "InputError",
+    "LeftOutWarning",
     "Polyball",
     "PolyskelError",
     "ReconstructionError",
@@ -58,6 +60,7 @@ __all__ = [
     "hausdorff",
     "hierarchy",
     "implicit",
+    "mend",
     "missing_facets",
     "reconstruct_curve",
     "sk0",

@@ -65,3 +65,7 @@ class TangentBallsError(PolyskelError):
 
 class CoarseSamplingWarning(UserWarning):
     """Balls of a skeleton are larger than the room around their centres: the samples are too far apart."""
+
+
+class LeftOutWarning(UserWarning):
+    """Something in a file is no outline, or was taken in a way that should be known; the message names it."""

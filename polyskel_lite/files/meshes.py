@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -11,10 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from ..checks import as_path
-from ..errors import InputError
+from ..errors import InputError, PolyskelError
+from .faces import obj_faces, off_faces, triangles
 
 MESH_SUFFIXES = (".stl", ".ply", ".obj", ".off")
 _SURFACE_SUFFIXES = (".stl", ".ply", ".obj", ".off", ".glb", ".vtk", ".vtu")
+_TEXT = {".off": off_faces, ".obj": obj_faces}
 _LINE_SUFFIXES = (".ply", ".obj", ".glb", ".vtk", ".vtu")
 
 
@@ -30,8 +32,8 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     vertices : (n, 3) float array
         Vertices at exactly one place are merged (STL has no shared ones).
     faces : (m, 3) int array
-        Faces that then have two equal corners are dropped, polygons are cut into triangles by the reader.
-        Nothing else is repaired.
+        Faces that then have two equal corners are dropped, polygons are cut into triangles. All objects of a
+        file are read. Nothing else is repaired.
 
     Raises
     ------
@@ -49,25 +51,39 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
     >>> vertices[3].tolist(), faces.shape
     ([0.0, 0.0, 6.0], (4, 3))
     """
-    trimesh, log = _library("trimesh"), logging.getLogger("trimesh.util")
-    loud, log.disabled = log.disabled, True  # it would print tracebacks of what is refused here in words
     path = as_path(path)
+    log = logging.getLogger("trimesh.util")
+    loud, log.disabled = log.disabled, True  # it would print tracebacks of what is refused here in words
     try:
-        mesh = trimesh.load_mesh(path, process=False)
-        vertices, faces = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
+        vertices, faces = _polygons(path)
+    except PolyskelError:
+        raise
     except Exception as error:  # the readers raise whatever a broken file makes them stumble over
         raise InputError(f"the mesh cannot be read ({error}); save it again.") from None
     finally:
         log.disabled = loud
     if not len(vertices) or not len(faces):
         raise InputError("there is no triangle in it; save the surface, not only its points.")
-    wrong = np.flatnonzero(((faces < 0) | (faces >= len(vertices))).any(axis=1))
-    if len(wrong):
-        raise InputError(
-            f"face {wrong[0]} has the corners {faces[wrong[0]].tolist()}, and there are {len(vertices)} "
-            "vertices, numbered from 0; save it again."
-        )
-    return _merged(vertices, faces)
+    for k, face in enumerate(faces):
+        if min(face) < 0 or max(face) >= len(vertices):
+            raise InputError(
+                f"face {k} has the corners {list(face)}, and there are {len(vertices)} "
+                "vertices, numbered from 0; save it again."
+            )
+    return _merged(vertices, triangles(vertices, faces))
+
+
+def _polygons(path: Path) -> tuple[np.ndarray, Sequence]:
+    """Vertices, and faces with any number of corners."""
+    trimesh = _library("trimesh")
+    if path.suffix.lower() in _TEXT:
+        return _TEXT[path.suffix.lower()](path.read_text(encoding="utf-8", errors="replace"))
+    mesh = trimesh.load_mesh(path, process=False)
+    raw = mesh.metadata.get("_ply_raw", {}).get("face", {"length": len(mesh.faces)})
+    if raw["length"] != len(mesh.faces):  # trimesh has cut polygons, and concave ones wrongly
+        mesh = _library("meshio").read(path, file_format="ply")
+        return mesh.points, [face for block in mesh.cells for face in block.data.tolist()]
+    return np.array(mesh.vertices, dtype=float), mesh.faces.tolist()
 
 
 def _merged(vertices: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

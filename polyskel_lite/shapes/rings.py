@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from ..checks import as_points, near, shown
 from ..errors import InputError, ShapeError
 from ..exact import first_meeting, occurrences, odd_around, orientation
+from ..files import Area
 
 #: Rings of one shape: these take a minute or two. A picture of noise has so many in 1500 x 1500 pixels.
 MOST_RINGS = 500_000
@@ -69,15 +70,21 @@ def wrongly_turned(rings: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """
     turn = np.array([turn_of(ring) for ring in rings])
     first = np.array([ring[0] for ring in rings])
-    around = np.flatnonzero(_may_surround(rings, first)).tolist()
+    around = np.flatnonzero(may_surround(rings, first)).tolist()
     segments = [np.stack([rings[k], np.roll(rings[k], -1, axis=0)], axis=1) for k in around]
     owner = np.repeat(around, [len(rings[k]) for k in around]).astype(np.int64)
     hole = odd_around(np.concatenate([np.zeros((0, 2, 2)), *segments]), owner, first)
     return (turn > 0) == hole, hole
 
 
-def _may_surround(rings: list[np.ndarray], first: np.ndarray) -> np.ndarray:
-    """Which rings have the first vertex of another one near their box; of thousands of specks few have."""
+def may_surround(rings: list[np.ndarray], first: np.ndarray) -> np.ndarray:
+    """Which rings have the first vertex of another one near their box; of thousands of specks few have.
+
+    Examples
+    --------
+    >>> may_surround([np.eye(3)[:, :2], np.eye(3)[:, :2] + 5], np.array([(1.0, 0), (6, 5)])).tolist()
+    [False, False]
+    """
     low, high = (np.array([getattr(ring, which)(axis=0) for ring in rings]) for which in ("min", "max"))
     middle, reach = (low + high) / 2, (high - low).max(axis=1)  # twice of what is needed, for rounding
     size = max(np.abs(low).max(), np.abs(high).max()) or 1.0
@@ -106,31 +113,43 @@ def oriented(rings, names=None) -> tuple[list[np.ndarray], Callable[[int], tuple
     >>> rings[0].tolist(), place(1)
     ([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]], ('ring 0', 2))
     """
+    rings, names, *_ = cleaned(rings, names)
+    wrong, _ = wrongly_turned(rings)
+    first = np.cumsum([0, *map(len, rings)])
+
+    def place(vertex: int) -> tuple[str, int]:
+        k = int(np.searchsorted(first, vertex, side="right")) - 1
+        number = int(vertex - first[k])
+        return names[k], -number % len(rings[k]) if wrong[k] else number
+
+    return [
+        np.roll(ring[::-1], 1, axis=0) if turned else ring for ring, turned in zip(rings, wrong, strict=True)
+    ], place
+
+
+def cleaned(rings, names=None) -> Area:
+    """Rings as arrays without the vertex that closes them, and with names.
+
+    Examples
+    --------
+    >>> area = cleaned([[(0, 0), (0, 2), (2, 0), (0, 0)]])
+    >>> area.rings[0].tolist(), area.names
+    ([[0.0, 0.0], [0.0, 2.0], [2.0, 0.0]], ['ring 0'])
+    """
     rings = _listed(rings)
     if names is None:
         names = [f"ring {k}" for k in range(len(rings))]
     if not isinstance(names, Sequence) or len(names) != len(rings):
         raise InputError(f"names is {shown(names)}; pass one name for each of the {len(rings)} rings.")
-    cleaned = []
+    arrays = []
     for name, ring in zip(names, rings, strict=True):
         ring = as_points(ring, name=name, dimensions=(2,))
         if len(ring) > 1 and (ring[0] == ring[-1]).all():
             ring = ring[:-1]
         if len(ring) < 3:
             raise InputError(f"{name} has {len(ring)} different vertices; a ring needs at least three.")
-        cleaned.append(ring)
-    wrong, _ = wrongly_turned(cleaned)
-    first = np.cumsum([0, *map(len, cleaned)])
-
-    def place(vertex: int) -> tuple[str, int]:
-        k = int(np.searchsorted(first, vertex, side="right")) - 1
-        number = int(vertex - first[k])
-        return names[k], -number % len(cleaned[k]) if wrong[k] else number
-
-    return [
-        np.roll(ring[::-1], 1, axis=0) if turned else ring
-        for ring, turned in zip(cleaned, wrong, strict=True)
-    ], place
+        arrays.append(ring)
+    return Area(arrays, list(names), "nested")
 
 
 def _listed(rings) -> list:

@@ -10,13 +10,14 @@ from os import PathLike
 import numpy as np
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
-from ..errors import InputError, PolyskelError, ShapeError, TessellationError
+from ..errors import InputError, ShapeError, TessellationError
 from ..exact import locate
-from ..files import read_file, trace, write_surface
+from ..files import trace, write_surface
 from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
 from .boundary import Boundary, only_in
 from .density import densified
 from .meshes import check_mesh, turned
+from .reading import mended, read_shape, telling_of_mend
 from .rings import check_closed, check_meetings, check_turns, oriented, ring_facets
 from .sampling import sample_rings
 
@@ -154,7 +155,7 @@ class Shape(Boundary):
         return shape
 
     @classmethod
-    def from_rings(cls, rings: Sequence, names: Sequence[str] | None = None) -> Shape:
+    def from_rings(cls, rings: Sequence, names: Sequence[str] | None = None, mend: bool = False) -> Shape:
         """Make a shape from closed rings of any orientation; rings inside rings are holes (even-odd).
 
         Parameters
@@ -163,6 +164,8 @@ class Shape(Boundary):
             Vertices in order. The last one may repeat the first.
         names : list of str, optional
             What messages call the rings; by default "ring 0", "ring 1" and so on.
+        mend : bool
+            Unite rings that cross or touch, see `polyskel_lite.mend`, which also says what was done.
 
         Returns
         -------
@@ -181,13 +184,16 @@ class Shape(Boundary):
         >>> frame.betti(), round(frame.area(), 12)
         ((1, 1), 8.0)
         """
+        if as_flag(mend, "mend"):
+            rings, names = mended("rings", (rings, names))[1]
         rings, place = oriented(rings, names)
         shape = object.__new__(cls)
-        shape._set(np.concatenate(rings), ring_facets([len(ring) for ring in rings]), place)
+        with telling_of_mend("shapely", tried=mend):
+            shape._set(np.concatenate(rings), ring_facets([len(ring) for ring in rings]), place)
         return shape
 
     @classmethod
-    def from_mesh(cls, V, F, turn: bool = False) -> Shape:
+    def from_mesh(cls, V, F, turn: bool = False, mend: bool = False) -> Shape:
         """Make a solid from a closed triangle mesh.
 
         Parameters
@@ -198,6 +204,8 @@ class Shape(Boundary):
             Triangles.
         turn : bool
             Turn surfaces that are inside out: outer ones outward, cavities inward.
+        mend : bool
+            Weld, wind, close and unite the faces, see `polyskel_lite.mend`, which also says what was done.
 
         Returns
         -------
@@ -217,12 +225,15 @@ class Shape(Boundary):
         """
         V = as_points(V, name="V", dimensions=(3,))
         F = as_indices(F, "facets", len(V), 3)
+        if as_flag(mend, "mend"):
+            V, F = mended("mesh", (V, F))[1]
         used, faces = np.unique(F, return_inverse=True)
         V, F = V[used], faces.reshape(-1, 3)
-        return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
+        with telling_of_mend("pymeshfix", "manifold3d", tried=mend):
+            return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
 
     @classmethod
-    def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
+    def from_mask(cls, image, level: float | None = None, **options) -> Shape:
         """Make a shape from a picture by marching squares; see `polyskel_lite.files.trace`.
 
         Examples
@@ -233,8 +244,18 @@ class Shape(Boundary):
         return cls.from_rings(trace(image, level, **options))
 
     @classmethod
-    def from_file(cls, path: str | PathLike, **options) -> Shape:
+    def from_file(cls, path: str | PathLike, *, turn: bool = False, mend: bool = False, **options) -> Shape:
         """Read a shape from GeoJSON, SVG, PNG, STL, PLY, OBJ or OFF; see `polyskel_lite.files.read_file`.
+
+        Parameters
+        ----------
+        path : str or path
+        turn : bool
+            Meshes only: as for `Shape.from_mesh`.
+        mend : bool
+            Make a boundary of what crosses or touches itself, or has gaps: see `polyskel_lite.mend`.
+        **options
+            Of `polyskel_lite.files.read_file`.
 
         Examples
         --------
@@ -242,16 +263,7 @@ class Shape(Boundary):
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
-        turn, path = options.pop("turn", False), as_path(path)
-        try:
-            kind, arrays = read_file(path, **options)
-            if kind == "mesh":
-                return cls.from_mesh(*arrays, turn=turn)
-            return cls(*arrays) if kind == "facets" else cls.from_rings(*arrays)
-        except PolyskelError as error:
-            # The same error, but whoever reads the message has to know which file it is about.
-            error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
-            raise
+        return read_shape(cls, as_path(path), turn, mend, options)
 
     def to_file(self, path: str | PathLike) -> None:
         """Write the boundary as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D also as STL or OFF.

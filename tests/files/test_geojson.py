@@ -1,10 +1,11 @@
 """GeoJSON: what becomes a shape, and a sentence for each kind of bad file."""
 
 import json
+import sys
 
 import pytest
 
-from polyskel_lite import InputError, Shape, ShapeError
+from polyskel_lite import InputError, LeftOutWarning, PolyskelError, Shape, ShapeError
 
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4], [0, 0]]
 HOLE = [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]
@@ -65,8 +66,15 @@ def collection(geometry):
         ("{not json", "a.geojson: this is not JSON"),
         ("[" * 100_000, "this is not JSON"),
         ([1, 2], "the file is no GeoJSON object"),
-        ({"type": "LineString", "coordinates": SQUARE}, "the file is a LineString; only Polygon"),
-        (collection({"type": "Point", "coordinates": [0, 0]}), "feature 0 is a Point"),
+        (
+            {"type": "LineString", "coordinates": SQUARE},
+            "no Polygon or MultiPolygon in it, only 1 LineString",
+        ),
+        (
+            collection({"type": "Point", "coordinates": [0, 0]}),
+            "no Polygon or MultiPolygon in it, only 1 Point",
+        ),
+        (collection({"type": "Circle", "coordinates": [0, 0]}), "feature 0 is a Circle; only Polygon"),
         (collection(None), "no Polygon or MultiPolygon in it"),
         ({"type": "Polygon"}, "coordinates is not a list"),
         (
@@ -125,3 +133,67 @@ def test_rings_that_cross_are_named_by_feature(tmp_path):
 def test_a_type_that_is_no_name(tmp_path, kind):
     with pytest.raises(InputError, match=r"the file is (no GeoJSON object|a x{40});"):
         read_text(tmp_path, "a.json", {"type": kind, "coordinates": []})
+
+
+def features(*geometries):
+    return {
+        "type": "FeatureCollection",
+        "features": [{"type": "Feature", "properties": {}, "geometry": geometry} for geometry in geometries],
+    }
+
+
+def test_points_and_lines_are_left_out_and_counted(tmp_path):
+    others = [
+        {"type": "Point", "coordinates": [9, 9]},
+        {"type": "LineString", "coordinates": [[0, 0], [1, 1]]},
+        {"type": "GeometryCollection", "geometries": [{"type": "Point", "coordinates": [1, 1]}]},
+    ]
+    with pytest.warns(
+        LeftOutWarning, match=r"a\.json: left out what has no inside: 1 LineString, 2 Points\."
+    ):
+        assert read_text(tmp_path, "a.json", features(FRAME, *others)).area() == 15
+
+
+def square(x, y, size=4):
+    ring = [[x, y], [x + size, y], [x + size, y + size], [x, y + size], [x, y]]
+    return {"type": "Polygon", "coordinates": [ring]}
+
+
+def test_a_feature_in_another_one_is_no_hole(tmp_path):
+    """Italy with the Vatican: what is in one of two features is in their union."""
+    assert read_text(tmp_path, "a.json", features(square(0, 0, 10), square(4, 4, 1))).area() == 100
+    inside_its_hole = {"type": "Polygon", "coordinates": [square(1.25, 1.25, 0.5)["coordinates"][0]]}
+    assert read_text(tmp_path, "a.json", features(FRAME, inside_its_hole)).betti() == (2, 1)
+
+
+@pytest.mark.parametrize(
+    ("content", "area", "betti"),
+    [
+        (features(square(0, 0), square(2, 2)), 28, (1, 0)),
+        (features(square(0, 0), square(4, 0)), 32, (1, 0)),
+        (features(square(0, 0), square(0, 0)), 16, (1, 0)),
+        (features(square(0, 0), square(4, 4)), 32, (2, 0)),
+        ({"type": "Polygon", "coordinates": [[*SQUARE[:3], [9, 4], [4, 4], *SQUARE[3:]]]}, 16, (1, 0)),
+        ({"type": "Polygon", "coordinates": [SQUARE, [[0, 2], [2, 1], [2, 3], [0, 2]]]}, 14, (1, 0)),
+        (
+            {"type": "Polygon", "coordinates": [SQUARE, [[-1, 1], [2, 1], [2, 3], [-1, 3], [-1, 1]]]},
+            12,
+            (1, 0),
+        ),
+    ],
+)
+def test_usual_data_is_mended(tmp_path, content, area, betti):
+    with pytest.raises(PolyskelError, match=r"^a\.json: .* of .*ring \d.* Or pass mend=True"):
+        read_text(tmp_path, "a.json", content)
+    shape = Shape.from_file(tmp_path / "a.json", mend=True)
+    assert shape.betti() == betti
+    assert shape.area() == pytest.approx(area, rel=1e-6)
+
+
+def test_without_shapely_the_message_names_the_extra(tmp_path, monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(ShapeError, match=r'mend=True, after pip install "polyskel-lite\[mend\]"'):
+        read_text(tmp_path, "a.json", features(square(0, 0), square(2, 2)))
+    monkeypatch.setitem(sys.modules, "shapely", None)
+    with pytest.raises(InputError, match=r'^a\.json: mending needs shapely; run: pip install "polyskel-lite'):
+        Shape.from_file(tmp_path / "a.json", mend=True)

@@ -130,3 +130,12 @@ def test_noise_of_thousands_of_specks():
     mask = np.random.default_rng(0).random((150, 150)) < 0.5
     ground = label(~np.pad(mask, 1), structure=np.ones((3, 3)))[1]
     assert Shape.from_mask(mask).betti() == (label(mask)[1], ground - 1)
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.int32, np.float64])
+def test_masks_of_0_and_255_have_the_outline_of_0_and_1(kind):
+    mask = np.pad(np.ones((9, 5)), 3)
+    right = Shape.from_mask(mask)
+    assert (Shape.from_mask((255 * mask).astype(kind)).points == right.points).all()
+    assert (Shape.from_mask((1 + mask).astype(kind)).points == right.points).all()
+    assert (Shape.from_mask(np.full((4, 4), 255)).points == Shape.from_mask(np.ones((4, 4))).points).all()

@@ -76,7 +76,8 @@ def test_mesh_errors_name_the_file(tmp_path):
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
-        ("a.off", "words", "cannot be read"),
+        ("a.off", "words", "begins with 'words', not with OFF"),
+        ("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "ends before its last face"),
         ("a.ply", "ply\nformat ascii 1.0\nelement vertex 9\nend_header\n", "cannot be read|no triangle"),
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "cannot be read|no triangle"),
         ("a.stl", "solid a\nendsolid a\n", "cannot be read|no triangle"),
@@ -166,3 +167,54 @@ def test_what_cannot_be_written(tmp_path, skeleton):
     empty = psl.sk1(psl.Shape.from_rings([[(0, 0), (4, 0), (2, 1)]]))
     with pytest.raises(InputError, match="no vertex"):
         empty.to_file(tmp_path / "a.vtk")
+
+
+PRISM = [(3, 0), (3, 1), (1, 1), (1, 3), (0, 3), (0, 0)]  # an L, area 5
+
+
+def prism_faces(n=6):
+    side = [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
+    return [list(range(n))[::-1], list(range(n, 2 * n)), *side]
+
+
+def as_off(points, faces):
+    lines = [f"OFF\n# made by hand\n{len(points)} {len(faces)} 0", *(" ".join(map(str, p)) for p in points)]
+    return "\n".join([*lines, *(f"{len(f)} {' '.join(map(str, f))} 255 0 0" for f in faces)])
+
+
+def as_obj(points, faces):
+    lines = [f"v {x} {y} {z}" for x, y, z in points]
+    lines += [f"f {' '.join(f'{k - len(points)}//1' for k in face)}" for face in faces]
+    return "\n".join(lines)
+
+
+def as_ply(points, faces):
+    head = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property float {x}\n" for x in "xyz")
+    head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    rows = [*points, *([len(face), *face] for face in faces)]
+    return head + "\n".join(" ".join(map(str, row)) for row in rows) + "\n"
+
+
+@pytest.mark.parametrize(("suffix", "write"), [(".off", as_off), (".obj", as_obj), (".ply", as_ply)])
+@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2)])
+def test_concave_faces_with_many_corners(tmp_path, suffix, write, axes):
+    points = np.array([(*p, z) for z in (0, 2) for p in PRISM])[:, axes]
+    faces = prism_faces()
+    if axes == (1, 0, 2):
+        faces = [face[::-1] for face in faces]
+    (tmp_path / f"L{suffix}").write_text(write(points.tolist(), faces))
+    solid = Shape.from_file(tmp_path / f"L{suffix}")
+    assert solid.volume() == pytest.approx(10)
+    assert (len(solid.points), len(solid.facets)) == (12, 20)
+
+
+def test_all_objects_of_a_file_are_read(tmp_path):
+    two = "".join(f"o part{k}\n" + "".join(f"v {x + 9 * k} {y} {z}\n" for x, y, z in POINTS) for k in (0, 1))
+    faces = "".join(
+        f"f {a + 1 + 4 * k} {b + 1 + 4 * k} {c + 1 + 4 * k}\n" for k in (0, 1) for a, b, c in CORNER
+    )
+    (tmp_path / "a.obj").write_text(two + faces)
+    assert Shape.from_file(tmp_path / "a.obj").betti() == (2, 0, 0)
+    (tmp_path / "a.stl").write_text(stl(np.array(POINTS)[CORNER]) + stl(np.array(POINTS)[CORNER] + 9))
+    assert Shape.from_file(tmp_path / "a.stl").betti() == (2, 0, 0)

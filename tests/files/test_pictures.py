@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from polyskel_lite import InputError, Shape
+from polyskel_lite import InputError, LeftOutWarning, Shape
 
 
 def read_picture(folder, pixels, **options):
@@ -55,12 +55,69 @@ def test_invert_takes_the_other_part(tmp_path):
 
 
 def test_level_and_smooth_reach_the_picture(tmp_path):
-    grey = np.where(INK == 0, 100, 255).astype(np.uint8)  # darkness 0.61
-    with pytest.raises(InputError, match=r"picture\.png: no pixel is dark at level 0\.7"):
-        read_picture(tmp_path, grey, level=0.7)
-    edge = read_picture(tmp_path, grey, level=0.5).points[:, 0].min()
-    assert edge == pytest.approx(0.5 + 0.5 / (155 / 255))
+    grey = np.where(INK == 0, 100, 255).astype(np.uint8)
+    edges = [read_picture(tmp_path, grey, level=level).points[:, 0].min() for level in (0.25, 0.5, 0.75)]
+    assert edges == pytest.approx([0.75, 1, 1.25])  # a share of the way from one tone to the other
     assert read_picture(tmp_path, INK, smooth=0.7).area() != pytest.approx(BAR, rel=1e-3)
+
+
+ROW, COLUMN = np.indices((120, 120))
+RING = np.abs(np.hypot(ROW - 60, COLUMN - 60) - 27.5) < 12.5
+TONES = {
+    "black on white": ((0, 0, 0), (255, 255, 255)),
+    "cyan on white": ((0, 200, 220), (255, 255, 255)),
+    "yellow on white": ((250, 220, 0), (255, 255, 255)),
+    "light grey on white": ((250, 250, 250), (255, 255, 255)),
+    "red on green of one brightness": ((200, 0, 0), (0, 102, 0)),
+}
+
+
+@pytest.mark.parametrize("smooth", [0, 1])
+@pytest.mark.parametrize("tones", TONES)
+def test_outline_is_half_way_between_the_tones(tmp_path, tones, smooth):
+    shape, ground = np.array(TONES[tones], dtype=np.uint8)
+    pixels = np.where(RING[..., None], shape, ground)
+    right = Shape.from_mask(RING, smooth=smooth)
+    pictures = {
+        "colours": Image.fromarray(pixels),
+        "palette": Image.fromarray(pixels).quantize(2),
+        "opaque": Image.fromarray(np.dstack([pixels, np.full(RING.shape, 255, np.uint8)])),
+    }
+    stray = np.array(pictures["opaque"])
+    stray[0, 0, 3] = 254
+    pictures["a stray pixel"] = Image.fromarray(stray)
+    stray = stray.copy()
+    stray[5, 5, 3] = 0
+    pictures["a hole"] = Image.fromarray(stray)
+    for name, picture in pictures.items():
+        picture.save(tmp_path / "a.png")
+        found = Shape.from_file(tmp_path / "a.png", smooth=smooth)
+        assert found.betti() == (1, 1), name
+        assert found.area() == pytest.approx(right.area(), rel=1e-2), name
+
+
+@pytest.mark.parametrize("high", [1, 255])
+def test_mask_files_with_a_dark_ground(tmp_path, high):
+    with pytest.warns(
+        LeftOutWarning, match=r"picture\.png: its border is dark, so the bright part is the shape"
+    ):
+        shape = read_picture(tmp_path, RING.astype(np.uint8) * np.uint8(high))
+    assert shape.area() == RING.sum()
+    ground = read_picture(tmp_path, RING.astype(np.uint8) * np.uint8(high), invert=False)
+    assert ground.area() == pytest.approx(120**2 - RING.sum(), abs=1)
+
+
+def test_half_transparent_shape(tmp_path):
+    pixels = np.zeros((*RING.shape, 4), dtype=np.uint8)
+    pixels[RING] = (9, 9, 9, 100)
+    assert read_picture(tmp_path, pixels).area() == RING.sum()
+
+
+def test_drawing_in_many_tones_is_what_is_dark(tmp_path):
+    pixels = np.full((30, 30, 3), 255, dtype=np.uint8)
+    for k, colour in enumerate([(200, 0, 0), (0, 100, 0), (0, 0, 200), (0, 0, 0)]):
+        pixels[3 + 6 * k : 6 + 6 * k, 5:25] = colour
+    assert read_picture(tmp_path, pixels).betti() == (4, 0)
 
 
 @pytest.mark.parametrize(

@@ -51,13 +51,22 @@ def calls() -> dict[str, tuple]:
         "voronoi": (psl.voronoi, {"points_or_tessellation": POINTS}),
         "reconstruct_curve": (psl.reconstruct_curve, {"points": RINGS[0]}),
         "Shape": (psl.Shape, {"points": RINGS[0], "facets": [(0, 1), (1, 2), (2, 3), (3, 0)]}),
-        "Shape.from_rings": (psl.Shape.from_rings, {"rings": RINGS}),
+        "Shape.from_rings": (psl.Shape.from_rings, {"rings": RINGS, "mend": True}),
         "Shape.from_rings of one": (lambda ring: psl.Shape.from_rings([ring]), {"ring": RINGS[0]}),
-        "Shape.from_mesh": (psl.Shape.from_mesh, {"V": V, "F": F, "turn": True}),
+        "Shape.from_mesh": (psl.Shape.from_mesh, {"V": V, "F": F, "turn": True, "mend": True}),
+        "mend": (
+            psl.mend,
+            {"boundary": RINGS, "tolerance": 1e-6, "width": 1e-4, "largest": True, "least": 0.0},
+        ),
+        "mend a mesh": (
+            lambda V, F, tolerance, least: psl.mend((V, F), tolerance=tolerance, least=least),
+            {"V": V, "F": F, "tolerance": 1e-6, "least": 0.0},
+        ),
         "Shape.from_mask": (psl.Shape.from_mask, {"image": image, "level": 0.5, "smooth": 0.0}),
         "Shape.from_file": (
             psl.Shape.from_file,
-            {"path": folder / "k.npz", "tolerance": 1e-3, "level": 0.5, "smooth": 0.0, "invert": False},
+            {"path": folder / "k.npz", "tolerance": 1e-3, "level": 0.5, "smooth": 0.0, "invert": False}
+            | {"stroke": False, "turn": False, "mend": False},
         ),
         "Shape.to_file": (space.to_file, {"path": folder / "a.stl"}),
         "Shape.contains": (plane.contains, {"queries": POINTS}),

