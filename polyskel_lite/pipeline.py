@@ -17,7 +17,7 @@ from .errors import CoarseSamplingWarning, InputError, PolyskelError
 from .progress import Progress
 from .shapes import FLOOR, SHARE, Shape
 from .simplification import STRATEGIES, Hierarchy, hierarchy
-from .skeletons import Branch, Skeleton, branch_graph, branch_rows
+from .skeletons import Branches, Skeleton, branch_graph, branch_rows
 
 #: Where noise is gone and what a reader would call a branch is there, in radians.
 THRESHOLDS = {"branch": 3.0, "surface": np.pi / 3, "wireframe": 2 * np.pi}
@@ -76,7 +76,7 @@ class Bones:
         return self.hierarchy.skeleton(self.threshold)
 
     @cached_property
-    def branches(self) -> list[Branch]:
+    def branches(self) -> Branches:
         """Its branches, the longest first, with lengths and radii (needs the extra ``graph``)."""
         return branch_rows(self.skeleton)
 
@@ -134,7 +134,7 @@ def skeleton(
 
     Parameters
     ----------
-    source : Shape, path, or list of rings
+    source : Shape, path, open file, or list of rings
     threshold : float, optional
         In radians; by default 3 for "branch", π/3 for "surface", 2π for "wireframe": a round end, half a
         sphere, is worth that, so the wires of round limbs end where their ends begin. Edges stick out
@@ -182,7 +182,7 @@ def skeleton(
 
 def _given(source, options: dict) -> Shape:
     """The shape of a path, of rings, or itself."""
-    if isinstance(source, str | PathLike):
+    if isinstance(source, str | PathLike) or hasattr(source, "read"):
         return Shape.from_file(source, **options)
     if options:
         raise InputError(

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..checks import as_array, as_instance, near
 from ..errors import ContourContainmentError, InputError
 from ..exact import components, orientation
 from ..graphs import Tessellation, facet_rows, gabriel_mask
 from ..shapes import Shape, check_shape
+from ..tables import Described, bounds_and_betti
 
 
-@dataclass(frozen=True, eq=False)
-class DelaunayShape:
+@dataclass(frozen=True, eq=False, repr=False)
+class DelaunayShape(Described):
     """A region made of Delaunay simplices: the paper's P_w, whose dual is Sk0 (section 3.4).
 
     Attributes
@@ -33,8 +36,10 @@ class DelaunayShape:
     tessellation: Tessellation
     inner: np.ndarray
 
-    def __repr__(self):
-        return f"DelaunayShape({np.count_nonzero(self.inner):,} inner simplices of {self.tessellation!r})"
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        kind = "triangles" if self.dimension == 2 else "tetrahedra"
+        yield f"inner {kind} of {len(self.inner):,}", int(np.count_nonzero(self.inner))
+        yield from bounds_and_betti(self.used_points(), self.betti)
 
     def __post_init__(self):
         as_instance(
@@ -53,6 +58,16 @@ class DelaunayShape:
     def dimension(self) -> int:
         """N, the dimension of the space."""
         return self.tessellation.dimension
+
+    def used_points(self) -> NDArray[np.float64]:
+        """The samples that are corners of inner simplices, (u, N).
+
+        Examples
+        --------
+        >>> len(delaunay_shape(Shape.from_rings([[(0, 0), (2, 0), (0, 2)]])).used_points())
+        3
+        """
+        return self.tessellation.points[np.unique(self.tessellation.simplices[self.inner])]
 
     def boundary_rows(self) -> np.ndarray:
         """Rows of ``tessellation.facet_table`` with the region on exactly one side, (m,) bool array.

@@ -1,9 +1,11 @@
 """Files to arrays and arrays to files, through well-kept readers; no shape and no skeleton is made here.
 
 In the room: outlines from GeoJSON, SVG and pictures (`read_file`, `trace`), meshes from STL, PLY, OBJ and
-OFF, arrays (`read_arrays`), and surfaces and cell complexes written for other programs.
+OFF, arrays (`read_arrays`), open files (`on_disk`); surfaces, cell complexes and outlines for other programs.
 """
 
 from .arrays import read_arrays
+from .geometries import GEOMETRY_SUFFIXES, write_geometry
 from .meshes import read_mesh, write_complex, write_surface, writing
 from .readers import read_file, trace
+from .streams import on_disk

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -12,6 +13,7 @@ from scipy.sparse import coo_array, csr_array
 from ..checks import as_indices, as_points
 from ..errors import InputError
 from ..exact import as_integers, circumcenter_terms
+from ..tables import Described, bounds_and_betti
 
 _BLOCK = 2**14
 
@@ -19,8 +21,8 @@ _BLOCK = 2**14
 OPPOSITE = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
 
 
-@dataclass(frozen=True, eq=False)
-class Tessellation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tessellation(Described):
     """A verified Delaunay tessellation of points; made by `delaunay`.
 
     Given arrays are checked as far as that is quick: what they are, and that neighbors are so both ways.
@@ -50,9 +52,10 @@ class Tessellation:
     simplices: np.ndarray
     neighbors: np.ndarray
 
-    def __repr__(self):
-        kind = "triangles" if self.dimension == 2 else "tetrahedra"
-        return f"Tessellation({self.dimension}D, {len(self.points):,} points, {len(self.simplices):,} {kind})"
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "points", len(self.points)
+        yield "triangles" if self.dimension == 2 else "tetrahedra", len(self.simplices)
+        yield next(bounds_and_betti(self.points, tuple))
 
     def __post_init__(self):
         points = as_points(self.points)

@@ -9,6 +9,7 @@ import numpy as np
 from ..checks import as_points
 from ..errors import InputError
 from ..shapes import only_in
+from ..tables import Described
 from .discs import Arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
@@ -19,7 +20,7 @@ from .volumes import surface_area, volume
 _FAR = 1e100
 
 
-class BallBoundary:
+class BallBoundary(Described):
     """A union of balls as what is on its boundary and can be measured there; `Polyball` checks the balls.
 
     Attributes

@@ -7,6 +7,7 @@ lie in the shape (section 3.2). What is on its boundary is in `boundary`, comput
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,13 +16,14 @@ import numpy as np
 from ..checks import as_choice, as_points, as_radii
 from ..errors import InputError, TangentBallsError
 from ..skeletons import Skeleton
+from ..tables import bounds_and_betti
 from .boundary import BallBoundary
 from .generating import isolated_lenses, lonely, needed
 from .pairs import in_any
 from .skeleton import ball_skeleton, verified_skeleton
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Polyball(BallBoundary):
     """A finite union of closed balls in the plane or in space (section 3.2, appendix A).
 
@@ -66,8 +68,11 @@ class Polyball(BallBoundary):
     centers: np.ndarray
     radii: np.ndarray
 
-    def __repr__(self):
-        return f"Polyball({self.dimension}D, {len(self.radii):,} balls)"
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        # Betti numbers, those of its skeleton, take longer than a repr should.
+        yield "balls", len(self.radii)
+        ends = np.concatenate([self.centers - self.radii[:, None], self.centers + self.radii[:, None]])
+        yield next(bounds_and_betti(ends, tuple))
 
     def __post_init__(self):
         centers = as_points(self.centers, name="centers")

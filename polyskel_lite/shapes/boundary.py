@@ -7,6 +7,8 @@ import numpy as np
 from ..checks import as_points
 from ..errors import InputError
 from ..exact import nearest_facets
+from ..tables import Described
+from .inscribed import Ball, largest_inside
 from .meshes import mesh_betti, signed_volume
 from .rings import rings_of, turn_of
 from .sampling import covering_radius
@@ -29,7 +31,7 @@ def only_in(dimension: int, thing, method: str, instead: str, kind: str = "shape
         )
 
 
-class Boundary:
+class Boundary(Described):
     """Oriented facets that enclose a region, and what can be measured on them; `Shape` checks that they do.
 
     Attributes
@@ -81,6 +83,32 @@ class Boundary:
         """
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
         return nearest_facets(self.segments, queries)[0]
+
+    def largest_ball(self) -> Ball:
+        """The largest ball inside: its centre is the place for a label, its diameter the greatest width.
+
+        Of the boundary itself, not of samples. Where balls of this size form a row, as in a bar, it is the
+        one in the middle.
+
+        Returns
+        -------
+        Ball
+            With ``center`` and ``radius``, right to rounding.
+
+        Notes
+        -----
+        Balls grow and move among planes that keep each facet out (linear programs) until they are stuck. They
+        begin in cells that are halved as long as one could hold a larger ball; in shapes that are thousands
+        of times as long as they are wide, in the 64 most promising ones only.
+
+        Examples
+        --------
+        >>> from polyskel_lite import Shape
+        >>> center, radius = Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]]).largest_ball()
+        >>> center.round(9).tolist(), round(radius, 9)
+        ([10.0, 2.0], 2.0)
+        """
+        return largest_inside(self.points, self.facets)
 
     def covering_radius(self, E=None) -> float:
         """w⁻¹, the largest distance from a boundary point to the samples (section 2.1); a length.

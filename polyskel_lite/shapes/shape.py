@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from typing import IO
 
 import numpy as np
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
 from ..errors import InputError, PolyskelError, ShapeError, TessellationError
 from ..exact import locate
-from ..files import read_file, trace, write_surface
+from ..files import on_disk, read_file, trace
 from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
-from .boundary import Boundary, only_in
+from ..tables import bounds_and_betti
+from .boundary import only_in
 from .density import densified
+from .exchange import Exchange
 from .meshes import check_mesh, turned
 from .rings import check_closed, check_meetings, check_turns, oriented, ring_facets
 from .sampling import sample_rings
@@ -36,8 +39,8 @@ def check_shape(shape) -> None:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Shape(Boundary):
+@dataclass(frozen=True, eq=False, repr=False)
+class Shape(Exchange):
     """A closed region of the plane or of space, given by its oriented boundary (the P of section 2.1).
 
     Parameters
@@ -94,9 +97,10 @@ class Shape(Boundary):
     points: np.ndarray
     facets: np.ndarray
 
-    def __repr__(self):
-        kind = "segments" if self.dimension == 2 else "triangles"
-        return f"Shape({self.dimension}D, {len(self.points):,} points, {len(self.facets):,} {kind})"
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "points", len(self.points)
+        yield "segments" if self.dimension == 2 else "triangles", len(self.facets)
+        yield from bounds_and_betti(self.points, self.betti)
 
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
@@ -233,8 +237,10 @@ class Shape(Boundary):
         return cls.from_rings(trace(image, level, **options))
 
     @classmethod
-    def from_file(cls, path: str | PathLike, **options) -> Shape:
+    def from_file(cls, path: str | PathLike | IO, **options) -> Shape:
         """Read a shape from GeoJSON, SVG, PNG, STL, PLY, OBJ or OFF; see `polyskel_lite.files.read_file`.
+
+        An open file, of bytes or text, is read as its name says, or ``name="drawing.svg"``.
 
         Examples
         --------
@@ -242,6 +248,9 @@ class Shape(Boundary):
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
+        if hasattr(path, "read"):  # an open file: its name says what is in it
+            with on_disk(path, options.pop("name", None)) as copy:
+                return cls.from_file(copy, **options)
         turn, path = options.pop("turn", False), as_path(path)
         try:
             kind, arrays = read_file(path, **options)
@@ -252,20 +261,6 @@ class Shape(Boundary):
             # The same error, but whoever reads the message has to know which file it is about.
             error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
             raise
-
-    def to_file(self, path: str | PathLike) -> None:
-        """Write the boundary as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D also as STL or OFF.
-
-        Needs the extra ``meshes``. PLY, OBJ, OFF and VTK keep the coordinates to the last bit; STL and
-        glTF round them to single precision. See `polyskel_lite.files.write_surface`.
-
-        Examples
-        --------
-        >>> Shape.from_rings([[(0, 0), (2, 0), (0, 2)]]).to_file("triangle.stl")  # doctest: +ELLIPSIS
-        Traceback (most recent call last):
-        polyskel_lite.errors.InputError: triangle.stl: a shape in the plane cannot be written as '.stl'; ...
-        """
-        write_surface(path, self.points, self.facets)
 
     def contains(self, queries) -> np.ndarray:
         """Whether each query point is in the closed region; exact, boundary points are inside.

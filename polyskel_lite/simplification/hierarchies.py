@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
@@ -14,6 +15,7 @@ from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..graphs import ordinary
 from ..skeletons import Skeleton, branch_graph, dual_complex
+from ..tables import Described, bounds_and_betti
 from . import collapse
 from .criteria import face_angles, facet_measures
 
@@ -25,8 +27,8 @@ STRATEGIES = {2: ("branch",), 3: ("surface", "wireframe")}
 _CRITERIA = ("corrected", "transcript")
 
 
-@dataclass(frozen=True, eq=False)
-class Hierarchy:
+@dataclass(frozen=True, eq=False, repr=False)
+class Hierarchy(Described):
     """All simplified skeletons of a shape, nested: made by `hierarchy`.
 
     Attributes
@@ -61,8 +63,15 @@ class Hierarchy:
     kind: np.ndarray
     order: np.ndarray
 
-    def __repr__(self):
-        return f"Hierarchy({self.P.dimension}D, {self.strategy!r}, {len(self.level):,} simplices)"
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        return self.P.dimension
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "strategy", repr(self.strategy)
+        yield "simplices", len(self.level)
+        yield from bounds_and_betti(self.P.used_points(), self.P.betti)
 
     def __post_init__(self):
         as_instance(self.P, DelaunayShape, "P", "a DelaunayShape, and get a Hierarchy from hierarchy(P)")
