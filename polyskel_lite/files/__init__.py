@@ -5,7 +5,7 @@ OFF, arrays (`read_arrays`), open files (`on_disk`); surfaces, cell complexes an
 """
 
 from .arrays import read_arrays
-from .geometries import GEOMETRY_SUFFIXES, write_geometry
-from .meshes import read_mesh, write_complex, write_surface, writing
+from .geometries import write_geometry
+from .meshes import GEOMETRY_SUFFIXES, read_mesh, write_complex, write_surface, writing
 from .readers import read_file, trace
 from .streams import on_disk

@@ -12,7 +12,6 @@ import numpy as np
 
 from .meshes import writing
 
-GEOMETRY_SUFFIXES = (".geojson", ".json", ".wkt", ".svg")
 # What SVG says of an area, a line and a point; a line of no length has a round end on both sides.
 _LOOK = {
     "Polygon": 'fill="#c9d3da" fill-rule="evenodd" stroke="none"',

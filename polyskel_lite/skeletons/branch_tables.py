@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..errors import InputError
 from ..files import writing
-from ..tables import table
+from ..tables import Table, table
 from .axes import Axis, axis_of
 from .branches import branch_graph
 from .complexes import BallComplex
@@ -46,6 +46,7 @@ class Branch(NamedTuple):
 
 #: The columns of a table of branches: everything that is a word or a number.
 COLUMNS = Branch._fields[:-1]
+_HEAD = [name.replace("_", " ") for name in COLUMNS]
 
 
 class Branches(list[Branch]):
@@ -60,9 +61,29 @@ class Branches(list[Branch]):
     """
 
     def _repr_html_(self) -> str:
-        head = [name.replace("_", " ") for name in COLUMNS]
-        made = table([[*row[:2], *(f"{x:.4g}" for x in row[2:-1])] for row in self], head)
-        return replace(made, words=tuple(k < 2 for k in range(len(head))))._repr_html_()
+        return self.table()._repr_html_()
+
+    def table(self) -> Table:
+        """The same with four digits, for the eye: columns in a terminal, a table in a notebook.
+
+        Examples
+        --------
+        >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).table()
+        start  end    length  smooth length  mean radius  least radius  largest radius
+        end 0  end 4     4.5            4.4            1           0.9             1.2
+        """
+        made = table([[*row[:2], *(f"{x:.4g}" for x in row[2:-1])] for row in self], _HEAD)
+        return replace(made, words=tuple(k < 2 for k in range(len(_HEAD))))
+
+    def records(self) -> list[dict[str, str | float]]:
+        """A dict for each branch, of words and numbers, as JSON and pandas take them.
+
+        Examples
+        --------
+        >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).records()[0]["length"]
+        4.5
+        """
+        return [dict(zip(COLUMNS, row[:-1], strict=True)) for row in self]
 
     def to_csv(self, path: str | PathLike | None = None) -> str:
         """Comma-separated values, one branch a line, with all digits; also as a file, if one is named.
@@ -73,9 +94,7 @@ class Branches(list[Branch]):
         6
         """
         stream = io.StringIO()
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows(row[:-1] for row in self)
+        csv.writer(stream, lineterminator="\n").writerows([COLUMNS, *(row[:-1] for row in self)])
         text = stream.getvalue().rstrip("\n")
         if path is not None:
             with writing(path) as place:
@@ -94,7 +113,7 @@ class Branches(list[Branch]):
             import pandas
         except ImportError:
             raise InputError("pandas is not installed; run: pip install pandas") from None
-        return pandas.DataFrame([row[:-1] for row in self], columns=list(COLUMNS))
+        return pandas.DataFrame(self.records(), columns=list(COLUMNS))
 
 
 def branch_rows(skeleton: BallComplex) -> Branches:

@@ -11,7 +11,7 @@ from ..checks import as_path
 from ..errors import InputError
 from ..files import GEOMETRY_SUFFIXES, write_complex, write_geometry
 from .axes import Axis, axis_of, longest_path
-from .branch_tables import COLUMNS, Branches, branch_rows
+from .branch_tables import Branches, branch_rows
 from .complexes import BallComplex
 
 
@@ -85,9 +85,9 @@ class Readings(BallComplex):
             raise InputError("only a skeleton of the plane, with no vertex at infinity, is a map of lines.")
         rows = self.branch_table()
         lines = [
-            {"type": "Feature", "properties": dict(zip(COLUMNS, row[:-1], strict=True))}
+            {"type": "Feature", "properties": facts}
             | {"geometry": {"type": "LineString", "coordinates": row.axis.points.tolist()}}
-            for row in rows
+            for row, facts in zip(rows, rows.records(), strict=True)
             if row.axis is not None and row.length > 0  # cocircular samples: two junctions at one place
         ]
         alone = np.setdiff1d(np.arange(len(self.vertices)), self.edges)
