@@ -63,7 +63,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    raw = {"formatter_class": argparse.RawDescriptionHelpFormatter, "epilog": _EXAMPLES}
+    raw: dict[str, Any] = {"formatter_class": argparse.RawDescriptionHelpFormatter, "epilog": _EXAMPLES}
     parser = argparse.ArgumentParser("polyskel-lite", description="Continuous skeletons of shapes.", **raw)
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
@@ -148,7 +148,7 @@ def _skeleton(options) -> None:
     bones = _bones(options)
     found, rows = bones.skeleton, bones.branches
     for path in options.out:
-        write = {".csv": rows.to_csv, ".npz": found.save}.get(Path(path).suffix.lower(), found.to_file)
+        write: Any = {".csv": rows.to_csv, ".npz": found.save}.get(Path(path).suffix.lower(), found.to_file)
         write(path)
     axis = found.main_axis()
     if not options.json:

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .checks import MOST_POINTS, as_choice, as_floats, as_number
 from .containment import conform, delaunay_shape
@@ -124,11 +125,11 @@ class Bones:
 
 
 def skeleton(
-    source: Shape | str | PathLike | Sequence,
+    source: Shape | str | PathLike | IO | Sequence,
     threshold: float | None = None,
     strategy: str | None = None,
     densify: bool = True,
-    **options,
+    **options: Any,
 ) -> Bones:
     """Go the whole way from a shape or a file to its simplified skeleton (sections 2 to 4).
 
@@ -237,14 +238,14 @@ class BranchCounts(NamedTuple):
         Branches at each threshold: in row 0 of the shape, in the others of its shaken copies.
     """
 
-    thresholds: np.ndarray
-    counts: np.ndarray
+    thresholds: NDArray[np.float64]
+    counts: NDArray[np.int64]
 
 
 def branch_counts(
-    source: Shape | str | PathLike | Sequence,
+    source: Shape | str | PathLike | IO | Sequence,
     strategy: str | None = None,
-    thresholds=None,
+    thresholds: ArrayLike | None = None,
     copies: int = 8,
     shake: float = 0.1,
     seed: int = 0,

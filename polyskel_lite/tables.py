@@ -83,7 +83,7 @@ def table(rows: Iterable[Sequence], head: Sequence[str], decimals: int | Sequenc
     leaf      1308  0.0013
     """
     head, found = tuple(head), [tuple(row) for row in rows]
-    digits = [decimals] * len(head) if isinstance(decimals, Integral) else list(decimals)
+    digits = list(decimals) if isinstance(decimals, Sequence | np.ndarray) else [decimals] * len(head)
     for name, line in [("decimals", digits), *((f"row {k}", row) for k, row in enumerate(found))]:
         if len(line) != len(head):
             raise InputError(f"{name} has {len(line)} entries for {len(head)} columns; give one for each.")
@@ -102,7 +102,10 @@ class Described:
     Shape(2D, 4 points, 4 segments, (0, 0) to (20, 4), Betti (1, 0))
     """
 
-    dimension: int
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        raise NotImplementedError
 
     def _facts(self) -> Iterator[tuple[str, object]]:
         """Names and values; whole numbers are counts."""

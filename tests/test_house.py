@@ -38,7 +38,7 @@ MAY_IMPORT = {
     "shapes": {"exact", "files", "graphs"},
     "containment": {"exact", "shapes", "graphs"},
     "skeletons": {"exact", "files", "shapes", "graphs", "containment"},
-    "simplification": {"graphs", "containment", "skeletons"},
+    "simplification": {"graphs", "shapes", "containment", "skeletons"},
     "polyballs": {"exact", "shapes", "graphs", "skeletons"},
     "datasets": {"shapes"},
     "implicit": {"exact", "shapes", "graphs", "containment"},

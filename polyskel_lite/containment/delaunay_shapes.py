@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_array, as_instance, near
 from ..errors import ContourContainmentError, InputError
@@ -34,7 +35,11 @@ class DelaunayShape(Described):
     """
 
     tessellation: Tessellation
-    inner: np.ndarray
+    inner: NDArray[np.bool_]
+
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, tessellation: Tessellation, inner: ArrayLike) -> None: ...
 
     def _facts(self) -> Iterator[tuple[str, object]]:
         kind = "triangles" if self.dimension == 2 else "tetrahedra"
@@ -69,7 +74,7 @@ class DelaunayShape(Described):
         """
         return self.tessellation.points[np.unique(self.tessellation.simplices[self.inner])]
 
-    def boundary_rows(self) -> np.ndarray:
+    def boundary_rows(self) -> NDArray[np.bool_]:
         """Rows of ``tessellation.facet_table`` with the region on exactly one side, (m,) bool array.
 
         Examples
@@ -80,7 +85,7 @@ class DelaunayShape(Described):
         inside = np.append(self.inner, False)[self.tessellation.facet_table[1]]
         return inside[:, 0] != inside[:, 1]
 
-    def boundary(self) -> np.ndarray:
+    def boundary(self) -> NDArray[np.int64]:
         """The oriented facets (m, N) around the region, which is on their left (2D) or behind them (3D).
 
         Examples

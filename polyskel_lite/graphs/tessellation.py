@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
 from ..checks import as_indices, as_points
@@ -48,9 +50,13 @@ class Tessellation(Described):
     (2, [[1.0, 1.0], [1.0, 1.0]])
     """
 
-    points: np.ndarray
-    simplices: np.ndarray
-    neighbors: np.ndarray
+    points: NDArray[np.float64]
+    simplices: NDArray[np.int64]
+    neighbors: NDArray[np.int64]
+
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, points: ArrayLike, simplices: ArrayLike, neighbors: ArrayLike) -> None: ...
 
     def _facts(self) -> Iterator[tuple[str, object]]:
         yield "points", len(self.points)
@@ -107,26 +113,28 @@ class Tessellation(Described):
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices)
-        return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
+        centers, radii, errors = in_blocks(
+            lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices
+        )
+        return np.ldexp(centers, exponent), np.ldexp(radii, exponent), np.ldexp(errors, exponent)
 
     @property
-    def circumcenters(self) -> np.ndarray:
+    def circumcenters(self) -> NDArray[np.float64]:
         """Centres of the Delaunay balls, (t, N)."""
         return self._balls[0]
 
     @property
-    def circumradii(self) -> np.ndarray:
+    def circumradii(self) -> NDArray[np.float64]:
         """Radii of the Delaunay balls, (t,)."""
         return self._balls[1]
 
     @property
-    def circumcenter_errors(self) -> np.ndarray:
+    def circumcenter_errors(self) -> NDArray[np.float64]:
         """Bounds on the distance from each circumcenter to the true one, (t,); not finite if it overflows."""
         return self._balls[2]
 
     @cached_property
-    def facet_table(self) -> tuple[np.ndarray, np.ndarray]:
+    def facet_table(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Every facet once: its vertices (m, N), increasing, and its two simplices (m, 2), -1 for none.
 
         Examples
@@ -147,7 +155,7 @@ class Tessellation(Described):
             facets[:, 1] = np.maximum(low, np.minimum(high, *c))
         return facets, np.stack([first, self.neighbors.ravel()[place]], axis=1)
 
-    def facets(self) -> np.ndarray:
+    def facets(self) -> NDArray[np.int64]:
         """The Delaunay segments (N = 2) or triangles (N = 3), each once, (m, N).
 
         Examples
@@ -158,7 +166,7 @@ class Tessellation(Described):
         """
         return self.facet_table[0]
 
-    def edges(self, rows=slice(None)) -> np.ndarray:
+    def edges(self, rows: slice | NDArray = slice(None)) -> NDArray[np.int64]:
         """The Delaunay segments, each once, (m, 2), in increasing order; of all simplices or some rows.
 
         Examples
@@ -172,7 +180,7 @@ class Tessellation(Described):
         keys = np.sort(np.concatenate([np.minimum(a, b) * n + np.maximum(a, b) for a, b in pairs]))
         return np.stack(np.divmod(keys[np.diff(keys, prepend=-1) > 0], n), axis=1)
 
-    def apexes(self) -> np.ndarray:
+    def apexes(self) -> NDArray[np.int64]:
         """The vertices that complete each facet of `facet_table` to its two simplices, (m, 2), -1 for none.
 
         Examples
@@ -187,7 +195,7 @@ class Tessellation(Described):
     def _apexes(self) -> np.ndarray:
         facets, sides = self.facet_table
         # A simplex's vertices sum up to its facet's vertices plus the apex.
-        whole, part = sum(self.simplices.T), sum(facets.T)
+        whole, part = self.simplices.sum(axis=1), facets.sum(axis=1)
         return np.where(sides >= 0, whole[sides] - part[:, None], -1)
 
     @cached_property

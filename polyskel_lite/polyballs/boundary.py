@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_points
 from ..errors import InputError
@@ -35,8 +37,8 @@ class BallBoundary(Described):
     True
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
+    centers: NDArray[np.float64]
+    radii: NDArray[np.float64]
 
     @property
     def dimension(self) -> int:
@@ -62,7 +64,7 @@ class BallBoundary(Described):
     def _exponent(self) -> int:
         return int(np.frexp(max(np.abs(self.centers).max(), self.radii.max()))[1])
 
-    def in_unit(self, lengths) -> np.ndarray:
+    def in_unit(self, lengths: ArrayLike) -> np.ndarray:
         """Lengths and places in the unit of length of `union`.
 
         Examples
@@ -74,7 +76,7 @@ class BallBoundary(Described):
         with np.errstate(over="ignore"):  # places this far away are far away
             return np.ldexp(lengths, -self._exponent)
 
-    def from_unit(self, lengths) -> np.ndarray:
+    def from_unit(self, lengths: ArrayLike) -> np.ndarray:
         """Lengths and places of `union` in the unit of the coordinates.
 
         Examples
@@ -156,7 +158,7 @@ class BallBoundary(Described):
         vertices, triangles, ball = patches(self.union, fineness)
         return self.from_unit(vertices + self.union.origin), triangles, self.union.rows[ball]
 
-    def boundary(self):
+    def boundary(self) -> Any:
         """The boundary in pieces of spheres: `arcs` in the plane, `patches` in space.
 
         Examples
@@ -254,7 +256,7 @@ class BallBoundary(Described):
         """
         return self.union.as_given(self.union.boundary.touching)
 
-    def boundary_distance(self, queries) -> np.ndarray:
+    def boundary_distance(self, queries: ArrayLike) -> NDArray[np.float64]:
         """Measure the distance from points to the boundary of the polyball.
 
         Parameters

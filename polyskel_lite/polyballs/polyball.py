@@ -10,8 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_choice, as_points, as_radii
 from ..errors import InputError, TangentBallsError
@@ -65,8 +67,12 @@ class Polyball(BallBoundary):
     (2, 5.0548)
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
+    centers: NDArray[np.float64]
+    radii: NDArray[np.float64]
+
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, centers: ArrayLike, radii: ArrayLike) -> None: ...
 
     def _facts(self) -> Iterator[tuple[str, object]]:
         # Betti numbers, those of its skeleton, take longer than a repr should.
@@ -87,7 +93,7 @@ class Polyball(BallBoundary):
         """The number of balls."""
         return len(self.radii)
 
-    def contains(self, queries) -> np.ndarray:
+    def contains(self, queries: ArrayLike) -> NDArray[np.bool_]:
         """Tell which points lie in the closed union of the balls.
 
         Parameters

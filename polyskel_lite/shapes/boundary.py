@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_points
 from ..errors import InputError
@@ -46,8 +47,8 @@ class Boundary(Described):
     True
     """
 
-    points: np.ndarray
-    facets: np.ndarray
+    points: NDArray[np.float64]
+    facets: NDArray[np.int64]
 
     @property
     def dimension(self) -> int:
@@ -55,11 +56,11 @@ class Boundary(Described):
         return self.points.shape[1]
 
     @property
-    def segments(self) -> np.ndarray:
+    def segments(self) -> NDArray[np.float64]:
         """The corners of every facet, (m, N, N): the ends of segments in 2D, of triangles in 3D."""
         return self.points[self.facets]
 
-    def rings(self) -> list[np.ndarray]:
+    def rings(self) -> list[NDArray[np.intp]]:
         """The vertex indices of every closed curve in order, starting at its smallest index (2D only).
 
         Examples
@@ -71,7 +72,7 @@ class Boundary(Described):
         only_in(2, self, "rings", "facets")
         return rings_of(self.facets)
 
-    def boundary_distance(self, queries) -> np.ndarray:
+    def boundary_distance(self, queries: ArrayLike) -> NDArray[np.float64]:
         """Distance (a length, never negative) from each query to the boundary.
 
         Examples
@@ -110,7 +111,7 @@ class Boundary(Described):
         """
         return largest_inside(self.points, self.facets)
 
-    def covering_radius(self, E=None) -> float:
+    def covering_radius(self, E: ArrayLike | None = None) -> float:
         """w⁻¹, the largest distance from a boundary point to the samples (section 2.1); a length.
 
         Parameters
@@ -136,7 +137,7 @@ class Boundary(Described):
             raise InputError("E is empty; pass at least one sample.")
         return covering_radius(self.segments, self.points, E)
 
-    def sampling_density(self, E=None) -> float:
+    def sampling_density(self, E: ArrayLike | None = None) -> float:
         """The paper's w (section 2.1): one over the largest distance from the boundary to the samples.
 
         Parameters

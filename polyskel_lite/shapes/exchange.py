@@ -5,9 +5,10 @@ from __future__ import annotations
 import io
 import json
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..checks import as_path
 from ..errors import InputError
@@ -52,6 +53,14 @@ class Exchange(Boundary):
         else:
             write_surface(path, self.points, self.facets)
 
+    if TYPE_CHECKING:  # of `Shape`, which is what is made here
+
+        @classmethod
+        def from_file(cls, path: str | PathLike | IO, **options: Any) -> Self: ...
+
+        @classmethod
+        def from_mesh(cls, V: ArrayLike, F: ArrayLike, turn: bool = False) -> Self: ...
+
     @property
     def __geo_interface__(self) -> dict[str, Any]:
         """A GeoJSON Polygon or MultiPolygon (2D only), which shapely, geopandas and others take as it is.
@@ -91,7 +100,7 @@ class Exchange(Boundary):
         return shapely.geometry.shape(self.__geo_interface__)
 
     @classmethod
-    def from_shapely(cls, geometry, **options) -> Self:
+    def from_shapely(cls, geometry: Any, **options: Any) -> Self:
         """Make a shape from a shapely geometry, or whatever else has a ``__geo_interface__``.
 
         Parameters
@@ -137,7 +146,7 @@ class Exchange(Boundary):
         return trimesh.Trimesh(self.points, self.facets, process=False)
 
     @classmethod
-    def from_trimesh(cls, mesh: trimesh.Trimesh, **options) -> Self:
+    def from_trimesh(cls, mesh: trimesh.Trimesh, **options: Any) -> Self:
         """Make a solid from a trimesh mesh: `Shape.from_mesh` of its vertices and faces, with its options.
 
         Examples

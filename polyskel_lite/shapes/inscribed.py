@@ -112,9 +112,11 @@ def _centred(boundary: np.ndarray, ball: Ball) -> Ball:
     """Of equally large balls around places that form a line or an area, as in a bar, one in the middle."""
     normals, distance = _planes(boundary, ball.center)
     room = distance / ball.radius
-    ends = [[_best(normals, room, aim=sign * axis) for sign in (1, -1)] for axis in np.eye(len(ball.center))]
-    if any(place is None for pair in ends for place in pair):
+    found = [_best(normals, room, aim=sign * axis) for axis in np.eye(len(ball.center)) for sign in (1, -1)]
+    places = [place for place in found if place is not None]
+    if len(places) < len(found):
         return ball
+    ends = np.stack(places).reshape(-1, 2, len(places[0]))
     # What is between two such places is one: a mean in which the pairs count that are far apart.
     spread = [pair[0][k] - pair[1][k] for k, pair in enumerate(ends)]
     if max(spread) < 1e-6:

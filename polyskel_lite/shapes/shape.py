@@ -6,9 +6,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import IO
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
 from ..errors import InputError, PolyskelError, ShapeError, TessellationError
@@ -24,7 +25,7 @@ from .rings import check_closed, check_meetings, check_turns, oriented, ring_fac
 from .sampling import sample_rings
 
 
-def check_shape(shape) -> None:
+def check_shape(shape: Any) -> None:
     """Raise `InputError` if ``shape`` is no `Shape`.
 
     Examples
@@ -94,8 +95,12 @@ class Shape(Exchange):
     (1.0, (1, 0, 0))
     """
 
-    points: np.ndarray
-    facets: np.ndarray
+    points: NDArray[np.float64]
+    facets: NDArray[np.int64]
+
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, points: ArrayLike, facets: ArrayLike) -> None: ...
 
     def _facts(self) -> Iterator[tuple[str, object]]:
         yield "points", len(self.points)
@@ -191,7 +196,7 @@ class Shape(Exchange):
         return shape
 
     @classmethod
-    def from_mesh(cls, V, F, turn: bool = False) -> Shape:
+    def from_mesh(cls, V: ArrayLike, F: ArrayLike, turn: bool = False) -> Shape:
         """Make a solid from a closed triangle mesh.
 
         Parameters
@@ -226,7 +231,7 @@ class Shape(Exchange):
         return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
 
     @classmethod
-    def from_mask(cls, image, level: float = 0.5, **options) -> Shape:
+    def from_mask(cls, image: ArrayLike, level: float = 0.5, **options: Any) -> Shape:
         """Make a shape from a picture by marching squares; see `polyskel_lite.files.trace`.
 
         Examples
@@ -237,7 +242,7 @@ class Shape(Exchange):
         return cls.from_rings(trace(image, level, **options))
 
     @classmethod
-    def from_file(cls, path: str | PathLike | IO, **options) -> Shape:
+    def from_file(cls, path: str | PathLike | IO, **options: Any) -> Shape:
         """Read a shape from GeoJSON, SVG, PNG, STL, PLY, OBJ or OFF; see `polyskel_lite.files.read_file`.
 
         An open file, of bytes or text, is read as its name says, or ``name="drawing.svg"``.
@@ -255,14 +260,14 @@ class Shape(Exchange):
         try:
             kind, arrays = read_file(path, **options)
             if kind == "mesh":
-                return cls.from_mesh(*arrays, turn=turn)
+                return cls.from_mesh(arrays[0], arrays[1], turn=turn)
             return cls(*arrays) if kind == "facets" else cls.from_rings(*arrays)
         except PolyskelError as error:
             # The same error, but whoever reads the message has to know which file it is about.
             error.args = (f"{path.name[:60]}: {error}", *error.args[1:])
             raise
 
-    def contains(self, queries) -> np.ndarray:
+    def contains(self, queries: ArrayLike) -> NDArray[np.bool_]:
         """Whether each query point is in the closed region; exact, boundary points are inside.
 
         Parameters
@@ -281,7 +286,7 @@ class Shape(Exchange):
         """
         return self.locate(queries) >= 0
 
-    def locate(self, queries) -> np.ndarray:
+    def locate(self, queries: ArrayLike) -> NDArray[np.int8]:
         """+1 for queries in the interior, 0 on the boundary, -1 outside; exact.
 
         Examples
@@ -293,7 +298,7 @@ class Shape(Exchange):
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
         return locate(self.segments, queries)
 
-    def sample(self, n: int, start: float = 0.0) -> np.ndarray:
+    def sample(self, n: int, start: float = 0.0) -> NDArray[np.float64]:
         """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling; 2D only).
 
         Parameters

@@ -9,11 +9,13 @@ from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..checks import as_array, as_choice, as_indices, as_instance, shown
 from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..graphs import ordinary
+from ..shapes import Shape
 from ..skeletons import Skeleton, branch_graph, dual_complex
 from ..tables import Described, bounds_and_betti
 from . import collapse
@@ -59,9 +61,9 @@ class Hierarchy(Described):
     P: DelaunayShape
     strategy: str
     criterion: str
-    level: np.ndarray
-    kind: np.ndarray
-    order: np.ndarray
+    level: NDArray[np.float64]
+    kind: NDArray[np.int8]
+    order: NDArray[np.int64]
 
     @property
     def dimension(self) -> int:
@@ -86,12 +88,12 @@ class Hierarchy(Described):
             )
 
     @cached_property
-    def simplices(self) -> np.ndarray:
+    def simplices(self) -> NDArray[np.intp]:
         """The inner simplices, (k,): rows of ``P.tessellation.simplices``."""
         return np.flatnonzero(self.P.inner)
 
     @cached_property
-    def rank(self) -> np.ndarray:
+    def rank(self) -> NDArray[np.intp]:
         """The position of each inner simplex in `order`, (k,) int array; k for those that never go.
 
         Examples
@@ -105,7 +107,7 @@ class Hierarchy(Described):
         rank[self.order] = np.arange(len(self.order))
         return rank
 
-    def kept(self, threshold: float) -> np.ndarray:
+    def kept(self, threshold: float) -> NDArray[np.bool_]:
         """Which simplices of the tessellation stay at a threshold (level >= threshold), (t,) bool array.
 
         Examples
@@ -159,7 +161,9 @@ class Hierarchy(Described):
         return branch_graph(self.skeleton(threshold))
 
 
-def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> Hierarchy:
+def hierarchy(
+    P: DelaunayShape | Shape, strategy: str | None = None, criterion: str = "corrected"
+) -> Hierarchy:
     """Remove hats and salients, and note for each simplex the threshold at which it goes (sections 4.1-4.3).
 
     Parameters

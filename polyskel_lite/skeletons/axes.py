@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
@@ -126,7 +126,7 @@ class Axis:
         return np.ldexp(self.points, -exponent), np.ldexp(self.radii, -exponent), exponent
 
 
-def axis_of(skeleton: BallComplex, vertices) -> Axis:
+def axis_of(skeleton: BallComplex, vertices: ArrayLike) -> Axis:
     """The axis through some vertices of a skeleton, in order.
 
     Examples
@@ -149,7 +149,7 @@ def longest_path(skeleton: BallComplex) -> list[int]:
     [0, 1]
     """
     k = len(skeleton.vertices)
-    finite = np.isfinite(skeleton.vertices).all(axis=1)
+    finite = np.asarray(np.isfinite(skeleton.vertices).all(axis=1))
     if not finite.any():
         raise InputError("the skeleton has no vertex, and so no axis; take another threshold or method.")
     edges = skeleton.edges[finite[skeleton.edges].all(axis=1)]
@@ -201,7 +201,7 @@ def _longer(graph: csr_array, away: np.ndarray, length: float) -> Iterator[tuple
         ways = dijkstra(graph, indices=sources)
         a, b = np.unravel_index(ways.argmax(), ways.shape)
         if ways[a, b] > length * (1 + 1e-12):
-            length, path = _path(graph, sources[a], b)
+            length, path = _path(graph, int(sources[a]), int(b))
             yield length, path
 
 

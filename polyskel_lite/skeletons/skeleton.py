@@ -8,6 +8,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_array, as_indices, as_instance, as_number, as_path, as_points
 from ..containment import DelaunayShape
@@ -58,14 +59,28 @@ class Skeleton(Readings):
     (1, 0)
     """
 
-    vertices: np.ndarray
-    radii: np.ndarray
-    simplices: np.ndarray
-    edges: np.ndarray
-    polygons: Sequence[np.ndarray] = ()
-    rays: np.ndarray | None = None
-    ray_vertices: np.ndarray | None = None
+    vertices: NDArray[np.float64]
+    radii: NDArray[np.float64]
+    simplices: NDArray[np.int64]
+    edges: NDArray[np.int64]
+    polygons: Polygons = ()  # type: ignore[assignment] # these three as they can be given
+    rays: NDArray[np.float64] = None  # type: ignore[assignment]
+    ray_vertices: NDArray[np.int64] = None  # type: ignore[assignment]
     tessellation: Tessellation | None = None
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(
+            self,
+            vertices: ArrayLike,
+            radii: ArrayLike,
+            simplices: ArrayLike,
+            edges: ArrayLike,
+            polygons: Sequence[ArrayLike] | Polygons = (),
+            rays: ArrayLike | None = None,
+            ray_vertices: ArrayLike | None = None,
+            tessellation: Tessellation | None = None,
+        ) -> None: ...
+
     #: `Polyball`, which puts itself here: its skeleton is a Skeleton, so the rooms cannot both import.
     _polyball: ClassVar[Callable[..., Any]]
 
@@ -114,7 +129,7 @@ class Skeleton(Readings):
                 f"{len(self.ray_vertices)} ray_vertices for {len(self.rays)} rays; pass one each."
             )
 
-    def contacts(self, vertex: int) -> np.ndarray:
+    def contacts(self, vertex: int) -> NDArray[np.float64]:
         """The samples on the ball of a vertex that is dual to a simplex: its corners, (N + 1, N).
 
         Examples
