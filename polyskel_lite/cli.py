@@ -152,7 +152,7 @@ def _skeleton(options) -> None:
         write(path)
     axis = found.main_axis()
     if not options.json:
-        print(found, f"main axis: {axis.smooth_length:.4g}", rows.table(), sep="\n")
+        print(found, f"main axis: {axis.smooth_length:.4g}", rows, sep="\n")
         return
     facts = {
         "strategy": bones.hierarchy.strategy,

@@ -71,7 +71,7 @@ def _sharp(figure: Figure, sharpness: float) -> tuple[bytes, tuple[int, int]]:
     pixels = Image.open(file).convert("RGB")
     few = pixels.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     # One of the few colours stands for white and what is near it; on a page it has to be white.
-    colors, ground = list(few.getpalette() or []), 3 * np.asarray(few)[0, 0]
+    colors, ground = list(few.getpalette() or []), 3 * int(np.asarray(few)[0, 0])
     colors[ground : ground + 3] = np.asarray(pixels)[0, 0].tolist()
     few.putpalette(colors)
     size, said = (round(pixels.width / sharpness), round(pixels.height / sharpness)), PngInfo()

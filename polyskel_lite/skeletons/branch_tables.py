@@ -60,11 +60,14 @@ class Branches(list[Branch]):
     end 0,end 4,4.5,4.4,1.0,0.9,1.2
     """
 
+    def __repr__(self) -> str:
+        return repr(self.table())
+
     def _repr_html_(self) -> str:
         return self.table()._repr_html_()
 
     def table(self) -> Table:
-        """The same with four digits, for the eye: columns in a terminal, a table in a notebook.
+        """The same with four digits, as a notebook and a terminal show it.
 
         Examples
         --------

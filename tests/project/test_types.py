@@ -39,9 +39,9 @@ def functions():
         elif inspect.isclass(thing):
             for method, member in inspect.getmembers(thing):
                 inner = getattr(member, "__func__", member)
-                if not method.startswith("_") and inspect.isfunction(inner):
-                    if inner.__module__.startswith("polyskel_lite"):
-                        yield f"{name}.{method}", inner
+                own = inspect.isfunction(inner) and inner.__module__.startswith("polyskel_lite")
+                if own and not method.startswith("_"):
+                    yield f"{name}.{method}", inner
 
 
 @pytest.mark.parametrize(("name", "function"), list(functions()), ids=[name for name, _ in functions()])
