@@ -109,7 +109,7 @@ class Axis:
         points, radii, exponent = self._ordinary()
         places, r = smooth_chains(points, radii, [len(points)])
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))])
-        least = np.ldexp(along[-1], exponent) / _MOST_STATIONS
+        least = float(np.ldexp(along[-1], exponent)) / _MOST_STATIONS
         if spacing is None:
             step = max(float(r.mean()), along[-1] / _MOST_STATIONS)
         else:

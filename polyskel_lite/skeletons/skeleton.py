@@ -91,11 +91,13 @@ class Skeleton(Readings):
 
     def __post_init__(self):
         self._check()
-        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
-        object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
         if self.rays is None:
-            object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
+            object.__setattr__(self, "rays", np.zeros((0, np.shape(self.vertices)[1])))
             object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
+        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
+        kinds = {"vertices": float, "radii": float, "simplices": np.int64, "edges": np.intp}
+        for name, kind in {**kinds, "rays": float, "ray_vertices": np.int64}.items():
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=kind))
 
     def _check(self) -> None:
         """Raise `InputError` unless the arrays fit together; every number is one of the kind it should be."""
