@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 from ..exact import locate, nearest_facets, nearest_on_facets
 from ..graphs import delaunay
@@ -138,6 +137,8 @@ def _best(normals: np.ndarray, room: np.ndarray, reach=None, aim=None) -> np.nda
 
     With an aim the way that leads farthest in its direction, to a ball of radius 1; None if none is found.
     """
+    from scipy.optimize import linprog  # it takes as long to load as the rest of the library
+
     n = normals.shape[1]
     sides = np.column_stack([-normals, np.ones(len(normals))])
     bounds = [(None if reach is None else -reach, reach)] * n + [(0.0 if aim is None else 1.0, None)]
