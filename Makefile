@@ -40,9 +40,10 @@ book: $(VENV)/.book  ## build the HTML book from book.toml and notebooks/
 test: lint unit chapters browser  ## run everything: ruff, tests, doctests, every notebook, every page in a browser
 	@echo "All passed."
 
-lint: $(VENV)/.test  ## ruff: rules and format
+lint: $(VENV)/.test  ## ruff: rules and format; mypy: types
 	@$(BIN)/ruff check
 	@$(BIN)/ruff format --check
+	@$(BIN)/mypy
 
 unit: book $(VENV)/.test  ## unit and property tests, doctests
 	@echo "Unit tests, property tests and doctests ..."

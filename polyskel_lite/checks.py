@@ -9,6 +9,7 @@ from __future__ import annotations
 from numbers import Integral, Real
 from os import PathLike, fspath
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -108,10 +109,14 @@ def as_number(
     Traceback (most recent call last):
     polyskel_lite.errors.InputError: n is 2.5; pass a whole number of samples.
     """
-    good = isinstance(value, Integral if whole else Real) and low <= value <= high and not abs(value) > 1e308
+    good = isinstance(value, Integral if whole else Real) and _within(value, low, high)
     if not good or (above and value == low):
         raise InputError(f"{name} is {shown(value)}; pass {what}.")
     return int(value) if whole else float(value)
+
+
+def _within(value: Any, low: float, high: float) -> bool:
+    return low <= value <= high and not abs(value) > 1e308
 
 
 def as_flag(value, name: str) -> bool:
@@ -192,7 +197,7 @@ def as_array(values, name: str, instead: str = "a list or an array of numbers") 
 
 def _check_objects(array: np.ndarray, name: str, instead: str) -> None:
     for place, value in np.ndenumerate(array):
-        if isinstance(value, Integral) and abs(value) > _EXACT:
+        if isinstance(value, Integral) and not -_EXACT <= int(value) <= _EXACT:
             raise _inexact(name, list(place), value)
         try:
             number = not isinstance(value, (str, bytes)) and np.isscalar(float(value))

@@ -70,7 +70,7 @@ class Loops:
             from numba import config
         except Exception:  # a numba that does not go with NumPy raises all kinds of errors
             return False
-        return not config.DISABLE_JIT
+        return not getattr(config, "DISABLE_JIT")  # noqa: B009 # numba sets it when it is imported
 
     def is_cached(self, **constants) -> bool:
         """Whether the compiled functions are in numba's cache; needs numba."""

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from typing import NamedTuple
+from typing import IO, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .checks import MOST_POINTS, as_choice, as_floats, as_number
 from .containment import conform, delaunay_shape
@@ -17,7 +18,7 @@ from .errors import CoarseSamplingWarning, InputError, PolyskelError
 from .progress import Progress
 from .shapes import FLOOR, SHARE, Shape
 from .simplification import STRATEGIES, Hierarchy, hierarchy
-from .skeletons import Branch, Skeleton, branch_graph, branch_rows
+from .skeletons import Branches, Skeleton, branch_graph, branch_rows
 
 #: Where noise is gone and what a reader would call a branch is there, in radians.
 THRESHOLDS = {"branch": 3.0, "surface": np.pi / 3, "wireframe": 2 * np.pi}
@@ -76,7 +77,7 @@ class Bones:
         return self.hierarchy.skeleton(self.threshold)
 
     @cached_property
-    def branches(self) -> list[Branch]:
+    def branches(self) -> Branches:
         """Its branches, the longest first, with lengths and radii (needs the extra ``graph``)."""
         return branch_rows(self.skeleton)
 
@@ -124,17 +125,17 @@ class Bones:
 
 
 def skeleton(
-    source: Shape | str | PathLike | Sequence,
+    source: Shape | str | PathLike | IO | Sequence,
     threshold: float | None = None,
     strategy: str | None = None,
     densify: bool = True,
-    **options,
+    **options: Any,
 ) -> Bones:
     """Go the whole way from a shape or a file to its simplified skeleton (sections 2 to 4).
 
     Parameters
     ----------
-    source : Shape, path, or list of rings
+    source : Shape, path, open file, or list of rings
     threshold : float, optional
         In radians; by default 3 for "branch", π/3 for "surface", 2π for "wireframe": a round end, half a
         sphere, is worth that, so the wires of round limbs end where their ends begin. Edges stick out
@@ -182,7 +183,7 @@ def skeleton(
 
 def _given(source, options: dict) -> Shape:
     """The shape of a path, of rings, or itself."""
-    if isinstance(source, str | PathLike):
+    if isinstance(source, str | PathLike) or hasattr(source, "read"):
         return Shape.from_file(source, **options)
     if options:
         raise InputError(
@@ -237,14 +238,14 @@ class BranchCounts(NamedTuple):
         Branches at each threshold: in row 0 of the shape, in the others of its shaken copies.
     """
 
-    thresholds: np.ndarray
-    counts: np.ndarray
+    thresholds: NDArray[np.float64]
+    counts: NDArray[np.int64]
 
 
 def branch_counts(
-    source: Shape | str | PathLike | Sequence,
+    source: Shape | str | PathLike | IO | Sequence,
     strategy: str | None = None,
-    thresholds=None,
+    thresholds: ArrayLike | None = None,
     copies: int = 8,
     shake: float = 0.1,
     seed: int = 0,

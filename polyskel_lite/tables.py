@@ -1,16 +1,17 @@
-"""Tables of results: a table of its page in a notebook, columns of words in a terminal."""
+"""Tables of results, and what things say of themselves: tables in a notebook, words in a terminal."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from html import escape
 from numbers import Integral, Real
 
 import numpy as np
 
-from .errors import InputError
+from .errors import InputError, PolyskelError
 
 
 @dataclass(frozen=True)
@@ -82,13 +83,66 @@ def table(rows: Iterable[Sequence], head: Sequence[str], decimals: int | Sequenc
     leaf      1308  0.0013
     """
     head, found = tuple(head), [tuple(row) for row in rows]
-    digits = [decimals] * len(head) if isinstance(decimals, Integral) else list(decimals)
+    digits = list(decimals) if isinstance(decimals, Sequence | np.ndarray) else [decimals] * len(head)
     for name, line in [("decimals", digits), *((f"row {k}", row) for k, row in enumerate(found))]:
         if len(line) != len(head):
             raise InputError(f"{name} has {len(line)} entries for {len(head)} columns; give one for each.")
     said = tuple(tuple(_said(x, d) for x, d in zip(row, digits, strict=True)) for row in found)
     words = tuple(not any(_is_number(row[k]) for row in found) for k in range(len(head)))
     return Table(head, said, words)
+
+
+class Described:
+    """A thing that says what it is in a line, in a notebook in a small table: counts, bounds, Betti numbers.
+
+    Examples
+    --------
+    >>> import polyskel_lite as psl
+    >>> psl.Shape.from_rings([[(0, 0), (20, 0), (20, 4), (0, 4)]])
+    Shape(2D, 4 points, 4 segments, (0, 0) to (20, 4), Betti (1, 0))
+    """
+
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        raise NotImplementedError
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        """Names and values; whole numbers are counts."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        said = [f"{self.dimension}D"]
+        for name, value in self._facts():
+            if isinstance(value, int):
+                said.append(f"{value:,} {name}")
+            else:
+                said.append(f"{name} {value}" if isinstance(value, tuple) else str(value))
+        return f"{type(self).__name__}({', '.join(said)})"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (name, f"{value:,}" if isinstance(value, int) else str(value)) for name, value in self._facts()
+        ]
+        return table(rows, (type(self).__name__, f"{self.dimension}D"))._repr_html_()
+
+
+def bounds_and_betti(
+    points: np.ndarray, betti: Callable[[], tuple[int, ...]]
+) -> Iterator[tuple[str, object]]:
+    """Two facts: the box of the finite points, and Betti numbers where they can be told.
+
+    Examples
+    --------
+    >>> list(bounds_and_betti(np.array([(0.0, 1), (2, 3)]), lambda: (1, 0)))
+    [('bounds', '(0, 1) to (2, 3)'), ('Betti', (1, 0))]
+    """
+    points = points[np.isfinite(points).all(axis=1)]
+    if len(points):
+        low, high = ("(" + ", ".join(f"{x:.4g}" for x in p) + ")" for p in (points.min(0), points.max(0)))
+        yield "bounds", f"{low} to {high}"
+    with suppress(PolyskelError):
+        yield "Betti", betti()
 
 
 def _is_number(value) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from ..checks import MOST_POINTS, as_choice, as_instance, as_number, near
@@ -30,7 +31,7 @@ _GRAPHS = ("delaunay", "gabriel")
 
 def missing_facets(
     shape: Shape, of: str = "delaunay", tessellation: Tessellation | None = None
-) -> np.ndarray:
+) -> NDArray[np.int64]:
     """The boundary facets that are not in Del(E), or not in GG(E), E being the shape's own vertices; exact.
 
     Parameters
@@ -132,7 +133,9 @@ def conform(shape: Shape, to: str | None = None, limit: int | None = None) -> Sh
     if shape.dimension == 3:
         return conform_solid(shape, to, limit)
     *_, (last, tessellation) = _stages(shape, to, limit)
-    return Shape.refined(last.facets, tessellation) if len(last.points) > len(shape.points) else shape
+    if tessellation is None or len(last.points) == len(shape.points):
+        return shape
+    return Shape.refined(last.facets, tessellation)
 
 
 class Stage(NamedTuple):

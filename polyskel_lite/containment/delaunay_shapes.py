@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_array, as_instance, near
 from ..errors import ContourContainmentError, InputError
 from ..exact import components, orientation
 from ..graphs import Tessellation, facet_rows, gabriel_mask
 from ..shapes import Shape, check_shape
+from ..tables import Described, bounds_and_betti
 
 
-@dataclass(frozen=True, eq=False)
-class DelaunayShape:
+@dataclass(frozen=True, eq=False, repr=False)
+class DelaunayShape(Described):
     """A region made of Delaunay simplices: the paper's P_w, whose dual is Sk0 (section 3.4).
 
     Attributes
@@ -31,10 +35,16 @@ class DelaunayShape:
     """
 
     tessellation: Tessellation
-    inner: np.ndarray
+    inner: NDArray[np.bool_]
 
-    def __repr__(self):
-        return f"DelaunayShape({np.count_nonzero(self.inner):,} inner simplices of {self.tessellation!r})"
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, tessellation: Tessellation, inner: ArrayLike) -> None: ...
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        kind = "triangles" if self.dimension == 2 else "tetrahedra"
+        yield f"inner {kind} of {len(self.inner):,}", int(np.count_nonzero(self.inner))
+        yield from bounds_and_betti(self.used_points(), self.betti)
 
     def __post_init__(self):
         as_instance(
@@ -54,7 +64,17 @@ class DelaunayShape:
         """N, the dimension of the space."""
         return self.tessellation.dimension
 
-    def boundary_rows(self) -> np.ndarray:
+    def used_points(self) -> NDArray[np.float64]:
+        """The samples that are corners of inner simplices, (u, N).
+
+        Examples
+        --------
+        >>> len(delaunay_shape(Shape.from_rings([[(0, 0), (2, 0), (0, 2)]])).used_points())
+        3
+        """
+        return self.tessellation.points[np.unique(self.tessellation.simplices[self.inner])]
+
+    def boundary_rows(self) -> NDArray[np.bool_]:
         """Rows of ``tessellation.facet_table`` with the region on exactly one side, (m,) bool array.
 
         Examples
@@ -65,7 +85,7 @@ class DelaunayShape:
         inside = np.append(self.inner, False)[self.tessellation.facet_table[1]]
         return inside[:, 0] != inside[:, 1]
 
-    def boundary(self) -> np.ndarray:
+    def boundary(self) -> NDArray[np.int64]:
         """The oriented facets (m, N) around the region, which is on their left (2D) or behind them (3D).
 
         Examples

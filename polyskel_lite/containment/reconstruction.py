@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..checks import near
 from ..errors import InputError, ReconstructionError
 from ..exact import occurrences, spread_out
-from ..graphs import as_tessellation, gabriel
+from ..graphs import Tessellation, as_tessellation, gabriel
 from ..shapes import Shape
 
 
-def reconstruct_curve(points) -> Shape:
+def reconstruct_curve(points: ArrayLike | Tessellation) -> Shape:
     """Find the polygon P_w through samples of an r-regular shape with w⁻¹ < r; no polygon is given.
 
     Parameters

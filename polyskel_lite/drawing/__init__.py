@@ -18,6 +18,7 @@ Examples
 
 from .balls import draw_ball, draw_balls
 from .counts import draw_branch_counts
+from .dispatch import plot
 from .graphs import draw_delaunay, draw_gabriel, draw_skeleton, draw_voronoi
 from .light import LIGHT, normals_of, shades, view_direction
 from .lines import box_of, chains, clip_segments, ray_segments

@@ -12,6 +12,7 @@ import re
 import sys
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
@@ -70,8 +71,8 @@ def _sharp(figure: Figure, sharpness: float) -> tuple[bytes, tuple[int, int]]:
     pixels = Image.open(file).convert("RGB")
     few = pixels.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     # One of the few colours stands for white and what is near it; on a page it has to be white.
-    colors, ground = few.getpalette(), 3 * few.getpixel((0, 0))
-    colors[ground : ground + 3] = pixels.getpixel((0, 0))
+    colors, ground = list(few.getpalette() or []), 3 * int(np.asarray(few)[0, 0])
+    colors[ground : ground + 3] = np.asarray(pixels)[0, 0].tolist()
     few.putpalette(colors)
     size, said = (round(pixels.width / sharpness), round(pixels.height / sharpness)), PngInfo()
     said.add_text("page", f"{size[0]} x {size[1]}")  # for tools/lighten.py

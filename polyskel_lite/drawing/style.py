@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -266,7 +267,7 @@ def axes(
     width: float = TEXT_WIDTH,
     letters: bool = False,
     under: float = 0.3,
-) -> tuple[Figure, Axes | np.ndarray]:
+) -> tuple[Figure, Any]:
     """Make a figure of the book's width with one or more empty axes: equal scales, no frame.
 
     Parameters

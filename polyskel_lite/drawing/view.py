@@ -8,6 +8,7 @@ it is drawn: a renderer that dashes a line from here to 10⁹ is slow at best.
 from __future__ import annotations
 
 import string
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -28,7 +29,7 @@ def axes_3d(
     height: float | None = None,
     width: float = TEXT_WIDTH,
     letters: bool = False,
-) -> tuple[Figure, Axes | np.ndarray]:
+) -> tuple[Figure, Any]:
     """Make a figure with one or more empty 3D axes: equal scales, no frame, the camera at `VIEW`.
 
     Parameters and returns are those of `polyskel_lite.drawing.axes`.

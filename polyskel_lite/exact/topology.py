@@ -100,7 +100,7 @@ def _boundary_rank(edges, polygons) -> int:
         owners = around[free.pop()]
         if len(owners) != 1:
             continue
-        (polygon,) = owners
+        polygon = next(iter(owners))
         alive.discard(polygon)
         rank += 1
         for edge in sides[polygon]:

@@ -138,7 +138,9 @@ def figure_9(shape=None, near=(0.19, 0.19)) -> Figure:
     rings = [v + r * np.column_stack([np.cos(turn), np.sin(turn)])]
     sides = t.points[t.edges()]
     drawn = _dots([*sides, *skeleton.segments(), *rim, *rings, (v, toward)])
-    grid = np.stack(np.meshgrid(*(np.linspace(*ends, 120) for ends in box.T)), axis=-1).reshape(-1, 2)
+    grid = np.stack(np.meshgrid(*(np.linspace(low, high, 120) for low, high in box.T)), axis=-1).reshape(
+        -1, 2
+    )
     within = h.P.to_shape().contains(grid)
     part = np.isin(np.arange(len(t.simplices)), rows)
     gray = DelaunayShape(t, part).to_shape().contains(grid)

@@ -17,6 +17,8 @@ from .faces import obj_faces, off_faces, triangles
 MESH_SUFFIXES = (".stl", ".ply", ".obj", ".off")
 _SURFACE_SUFFIXES = (".stl", ".ply", ".obj", ".off", ".glb", ".vtk", ".vtu")
 _TEXT = {".off": off_faces, ".obj": obj_faces}
+#: Of what is in the plane; see `write_geometry`.
+GEOMETRY_SUFFIXES = (".geojson", ".json", ".wkt", ".svg")
 _LINE_SUFFIXES = (".ply", ".obj", ".glb", ".vtk", ".vtu")
 
 
@@ -122,7 +124,9 @@ def write_surface(path: str | PathLike, points: np.ndarray, facets: np.ndarray) 
     np.True_
     """
     if points.shape[1] == 2:
-        _write(_checked(path, _LINE_SUFFIXES, "a shape in the plane"), points, facets, [], {})
+        _write(
+            _checked(path, GEOMETRY_SUFFIXES + _LINE_SUFFIXES, "a shape in the plane"), points, facets, [], {}
+        )
         return
     path = _checked(path, _SURFACE_SUFFIXES, "a solid")
     if path.suffix.lower() in (".stl", ".off"):
@@ -163,7 +167,8 @@ def write_complex(path: str | PathLike, points, edges, polygons, data) -> None:
     ...     print(file.read_text().splitlines()[1:])
     ['v 2.0 1.0 0.0', 'v 2.25 1.5 0.0', 'l 1 2']
     """
-    path = _checked(path, _LINE_SUFFIXES, "a skeleton")
+    flat = GEOMETRY_SUFFIXES if np.shape(points)[1:] == (2,) else ()
+    path = _checked(path, flat + _LINE_SUFFIXES, "a skeleton")
     if not len(points) or not np.isfinite(points).all():
         raise InputError("the skeleton has no vertex, or one at infinity, and cannot be written.")
     _write(path, points, edges, polygons, data)

@@ -352,7 +352,7 @@ def _polygon(pieces: list, matrix: np.ndarray, chord: float) -> np.ndarray:
 
 def _share(matrix: np.ndarray, chord: float) -> float:
     """How far a chord may leave a curve before the transform."""
-    scale = np.linalg.norm(matrix[:2, :2], 2)
+    scale = float(np.linalg.norm(matrix[:2, :2], 2))
     return chord / scale if scale else np.inf
 
 

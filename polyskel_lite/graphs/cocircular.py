@@ -137,7 +137,7 @@ def cone_ranks(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     first, second, apex = first[flat], second[flat], apex[flat]
     tie = in_gabriel_ball(points[faces[first]], points[apex]) == 0
     _, label = components(len(faces), np.stack([first[tie], second[tie]], axis=1))
-    polygons = {polygon: [] for polygon in np.unique(label[first[tie]]).tolist()}
+    polygons: dict[int, list] = {polygon: [] for polygon in np.unique(label[first[tie]]).tolist()}
     for face in np.flatnonzero(np.isin(label, list(polygons))).tolist():
         polygons[int(label[face])].append(set(faces[face].tolist()))
     around: dict[int, list[int]] = {}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from numpy.typing import ArrayLike
+
 from ..checks import MOST_POINTS, as_indices, as_points
 from ..errors import InputError
 from .cocircular import preferring
@@ -10,7 +12,7 @@ from .tessellation import Tessellation
 from .triangulation import triangulate
 
 
-def delaunay(points, facets=None) -> Tessellation:
+def delaunay(points: ArrayLike, facets: ArrayLike | None = None) -> Tessellation:
     """Delaunay tessellation of points, checked exactly (section 2.2).
 
     Parameters

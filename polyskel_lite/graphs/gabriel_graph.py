@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_flag
 from ..exact import components, in_ball, in_gabriel_ball
@@ -61,7 +62,7 @@ def _cocircular(tessellation: Tessellation, facets: np.ndarray, behind: np.ndarr
     return found
 
 
-def gabriel(points_or_tessellation, closed: bool = True) -> np.ndarray:
+def gabriel(points_or_tessellation: ArrayLike | Tessellation, closed: bool = True) -> NDArray[np.int64]:
     """Gabriel graph GG(E): Delaunay facets whose smallest ball holds no other sample (section 2.2).
 
     Parameters

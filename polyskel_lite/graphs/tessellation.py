@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
 from ..checks import as_indices, as_points
 from ..errors import InputError
 from ..exact import as_integers, circumcenter_terms
+from ..tables import Described, bounds_and_betti
 
 _BLOCK = 2**14
 
@@ -19,8 +23,8 @@ _BLOCK = 2**14
 OPPOSITE = {3: np.array([(1, 2), (2, 0), (0, 1)]), 4: np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])}
 
 
-@dataclass(frozen=True, eq=False)
-class Tessellation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tessellation(Described):
     """A verified Delaunay tessellation of points; made by `delaunay`.
 
     Given arrays are checked as far as that is quick: what they are, and that neighbors are so both ways.
@@ -46,13 +50,18 @@ class Tessellation:
     (2, [[1.0, 1.0], [1.0, 1.0]])
     """
 
-    points: np.ndarray
-    simplices: np.ndarray
-    neighbors: np.ndarray
+    points: NDArray[np.float64]
+    simplices: NDArray[np.int64]
+    neighbors: NDArray[np.int64]
 
-    def __repr__(self):
-        kind = "triangles" if self.dimension == 2 else "tetrahedra"
-        return f"Tessellation({self.dimension}D, {len(self.points):,} points, {len(self.simplices):,} {kind})"
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, points: ArrayLike, simplices: ArrayLike, neighbors: ArrayLike) -> None: ...
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "points", len(self.points)
+        yield "triangles" if self.dimension == 2 else "tetrahedra", len(self.simplices)
+        yield next(bounds_and_betti(self.points, tuple))
 
     def __post_init__(self):
         points = as_points(self.points)
@@ -104,26 +113,28 @@ class Tessellation:
     @cached_property
     def _balls(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         scaled, exponent = ordinary(self)
-        balls = in_blocks(lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices)
-        return tuple(np.ldexp(array, exponent) if exponent else array for array in balls)
+        centers, radii, errors = in_blocks(
+            lambda rows: circumballs(corners_of(scaled.points, rows)), self.simplices
+        )
+        return np.ldexp(centers, exponent), np.ldexp(radii, exponent), np.ldexp(errors, exponent)
 
     @property
-    def circumcenters(self) -> np.ndarray:
+    def circumcenters(self) -> NDArray[np.float64]:
         """Centres of the Delaunay balls, (t, N)."""
         return self._balls[0]
 
     @property
-    def circumradii(self) -> np.ndarray:
+    def circumradii(self) -> NDArray[np.float64]:
         """Radii of the Delaunay balls, (t,)."""
         return self._balls[1]
 
     @property
-    def circumcenter_errors(self) -> np.ndarray:
+    def circumcenter_errors(self) -> NDArray[np.float64]:
         """Bounds on the distance from each circumcenter to the true one, (t,); not finite if it overflows."""
         return self._balls[2]
 
     @cached_property
-    def facet_table(self) -> tuple[np.ndarray, np.ndarray]:
+    def facet_table(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Every facet once: its vertices (m, N), increasing, and its two simplices (m, 2), -1 for none.
 
         Examples
@@ -144,7 +155,7 @@ class Tessellation:
             facets[:, 1] = np.maximum(low, np.minimum(high, *c))
         return facets, np.stack([first, self.neighbors.ravel()[place]], axis=1)
 
-    def facets(self) -> np.ndarray:
+    def facets(self) -> NDArray[np.int64]:
         """The Delaunay segments (N = 2) or triangles (N = 3), each once, (m, N).
 
         Examples
@@ -155,7 +166,7 @@ class Tessellation:
         """
         return self.facet_table[0]
 
-    def edges(self, rows=slice(None)) -> np.ndarray:
+    def edges(self, rows: slice | NDArray = slice(None)) -> NDArray[np.int64]:
         """The Delaunay segments, each once, (m, 2), in increasing order; of all simplices or some rows.
 
         Examples
@@ -169,7 +180,7 @@ class Tessellation:
         keys = np.sort(np.concatenate([np.minimum(a, b) * n + np.maximum(a, b) for a, b in pairs]))
         return np.stack(np.divmod(keys[np.diff(keys, prepend=-1) > 0], n), axis=1)
 
-    def apexes(self) -> np.ndarray:
+    def apexes(self) -> NDArray[np.int64]:
         """The vertices that complete each facet of `facet_table` to its two simplices, (m, 2), -1 for none.
 
         Examples
@@ -184,7 +195,7 @@ class Tessellation:
     def _apexes(self) -> np.ndarray:
         facets, sides = self.facet_table
         # A simplex's vertices sum up to its facet's vertices plus the apex.
-        whole, part = sum(self.simplices.T), sum(facets.T)
+        whole, part = self.simplices.sum(axis=1), facets.sum(axis=1)
         return np.where(sides >= 0, whole[sides] - part[:, None], -1)
 
     @cached_property

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from ..checks import as_array, as_flag, as_floats, as_instance, as_number, as_points, shown
@@ -84,7 +85,7 @@ def _lengths(**lengths) -> list[float]:
     ]
 
 
-def ball(center=(0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
+def ball(center: ArrayLike = (0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
     """A ball.
 
     Examples
@@ -96,7 +97,7 @@ def ball(center=(0.0, 0.0, 0.0), radius: float = 1.0) -> Field:
     return Field(lambda x: np.linalg.norm(x - center, axis=1) - radius, _box(center[None], radius))
 
 
-def torus(major: float = 1.0, minor: float = 0.4, center=(0.0, 0.0, 0.0)) -> Field:
+def torus(major: float = 1.0, minor: float = 0.4, center: ArrayLike = (0.0, 0.0, 0.0)) -> Field:
     """A ring around the z axis: Betti numbers (1, 1, 0).
 
     Parameters
@@ -185,7 +186,7 @@ def tetrapod(length: float = 1.0, root: float = 0.3, tip: float = 0.18) -> Field
     return union(*arms, blend=0.2 * root)
 
 
-def arm(control, root: float, tip: float, pieces: int = 40) -> Field:
+def arm(control: ArrayLike, root: float, tip: float, pieces: int = 40) -> Field:
     """A ball swept along a Bézier curve, its radius going from ``root`` to ``tip``.
 
     Parameters
@@ -214,7 +215,7 @@ def arm(control, root: float, tip: float, pieces: int = 40) -> Field:
     return tube(points[0], np.linspace(root, tip, pieces + 1))
 
 
-def tube(points, radius, closed: bool = False) -> Field:
+def tube(points: ArrayLike, radius: ArrayLike, closed: bool = False) -> Field:
     """All points within ``radius`` of a chain of segments.
 
     Parameters

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..checks import as_number, shown
 from ..containment import DelaunayShape
@@ -18,7 +19,7 @@ from .isosurface import dense_points, grid_of, spread, topology_of_grid
 MOST_VERTICES = 50_000
 
 
-def solid(field: Field | Callable, n: int = 1000, box=None, seed: int = 0) -> Shape:
+def solid(field: Field | Callable, n: int = 1000, box: ArrayLike | None = None, seed: int = 0) -> Shape:
     """A uniform closed mesh of an implicit surface, with all its triangles in Del(E).
 
     Parameters
@@ -91,7 +92,6 @@ def solid(field: Field | Callable, n: int = 1000, box=None, seed: int = 0) -> Sh
 def _mesh(field, samples: np.ndarray) -> Shape:
     tessellation = delaunay(samples)
     centers = tessellation.circumcenters
-    far = ~np.isfinite(centers).all(axis=1)
-    inner = ~far
+    inner = np.asarray(np.isfinite(centers).all(axis=1))
     inner[inner] = field(centers[inner]) < 0
     return DelaunayShape(tessellation, inner).to_shape()

@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
+from ..graphs import Tessellation
+from ..shapes import Shape
 from ..skeletons import sk1, sk2
 from .polyball import Polyball
 
@@ -51,7 +54,7 @@ class Sk2Conditions(NamedTuple):
         return {name: not len(found) for name, found in zip("abcde", self, strict=True)}
 
 
-def delaunay_balls(shape, E=None) -> Polyball:
+def delaunay_balls(shape: Shape, E: ArrayLike | Tessellation | None = None) -> Polyball:
     """Y_w, the union of the Delaunay balls whose centres are in the shape (section 3.2).
 
     Parameters
@@ -83,7 +86,7 @@ def delaunay_balls(shape, E=None) -> Polyball:
     return sk1(shape, E).balls()
 
 
-def sk2_conditions(shape, E=None) -> Sk2Conditions:
+def sk2_conditions(shape: Shape, E: ArrayLike | Tessellation | None = None) -> Sk2Conditions:
     """Check, one by one, five conditions under which Sk2(X, E) is the skeleton of Y_w (section 3.2).
 
     The paper states the equality without any. In the plane it holds if (a) all samples of kept balls are on
@@ -122,6 +125,7 @@ def sk2_conditions(shape, E=None) -> Sk2Conditions:
     """
     skeleton = sk1(shape, E)
     t, Y = skeleton.tessellation, skeleton.balls()
+    assert t is not None
     samples = np.unique(t.simplices[skeleton.simplices])
     size = np.full(len(t.points), np.inf)
     np.minimum.at(size, t.simplices[skeleton.simplices], Y.radii[:, None])

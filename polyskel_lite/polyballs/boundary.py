@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_points
 from ..errors import InputError
 from ..shapes import only_in
+from ..tables import Described
 from .discs import Arcs
 from .distance import distance_to_boundary
 from .sphere_patches import patches
@@ -19,7 +22,7 @@ from .volumes import surface_area, volume
 _FAR = 1e100
 
 
-class BallBoundary:
+class BallBoundary(Described):
     """A union of balls as what is on its boundary and can be measured there; `Polyball` checks the balls.
 
     Attributes
@@ -34,8 +37,8 @@ class BallBoundary:
     True
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
+    centers: NDArray[np.float64]
+    radii: NDArray[np.float64]
 
     @property
     def dimension(self) -> int:
@@ -61,7 +64,7 @@ class BallBoundary:
     def _exponent(self) -> int:
         return int(np.frexp(max(np.abs(self.centers).max(), self.radii.max()))[1])
 
-    def in_unit(self, lengths) -> np.ndarray:
+    def in_unit(self, lengths: ArrayLike) -> np.ndarray:
         """Lengths and places in the unit of length of `union`.
 
         Examples
@@ -73,7 +76,7 @@ class BallBoundary:
         with np.errstate(over="ignore"):  # places this far away are far away
             return np.ldexp(lengths, -self._exponent)
 
-    def from_unit(self, lengths) -> np.ndarray:
+    def from_unit(self, lengths: ArrayLike) -> np.ndarray:
         """Lengths and places of `union` in the unit of the coordinates.
 
         Examples
@@ -155,7 +158,7 @@ class BallBoundary:
         vertices, triangles, ball = patches(self.union, fineness)
         return self.from_unit(vertices + self.union.origin), triangles, self.union.rows[ball]
 
-    def boundary(self):
+    def boundary(self) -> Any:
         """The boundary in pieces of spheres: `arcs` in the plane, `patches` in space.
 
         Examples
@@ -253,7 +256,7 @@ class BallBoundary:
         """
         return self.union.as_given(self.union.boundary.touching)
 
-    def boundary_distance(self, queries) -> np.ndarray:
+    def boundary_distance(self, queries: ArrayLike) -> NDArray[np.float64]:
         """Measure the distance from points to the boundary of the polyball.
 
         Parameters

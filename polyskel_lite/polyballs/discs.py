@@ -270,4 +270,4 @@ def _covers(centers, radii, i, j) -> Covers:
     sine = np.sqrt(above) * np.sqrt(below) / (2 * ri * rj)
     with np.errstate(divide="ignore"):
         error = np.minimum(believed / sine, np.maximum(WORST * np.minimum(ri, rj), believed))
-    return Covers.about(i, *across.T, above, below, error / ri)
+    return Covers.about(i, across[:, 0], across[:, 1], above, below, error / ri)

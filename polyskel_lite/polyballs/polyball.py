@@ -7,21 +7,25 @@ lie in the shape (section 3.2). What is on its boundary is in `boundary`, comput
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_choice, as_points, as_radii
 from ..errors import InputError, TangentBallsError
 from ..skeletons import Skeleton
+from ..tables import bounds_and_betti
 from .boundary import BallBoundary
 from .generating import isolated_lenses, lonely, needed
 from .pairs import in_any
 from .skeleton import ball_skeleton, verified_skeleton
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Polyball(BallBoundary):
     """A finite union of closed balls in the plane or in space (section 3.2, appendix A).
 
@@ -63,11 +67,18 @@ class Polyball(BallBoundary):
     (2, 5.0548)
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
+    centers: NDArray[np.float64]
+    radii: NDArray[np.float64]
 
-    def __repr__(self):
-        return f"Polyball({self.dimension}D, {len(self.radii):,} balls)"
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, centers: ArrayLike, radii: ArrayLike) -> None: ...
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        # Betti numbers, those of its skeleton, take longer than a repr should.
+        yield "balls", len(self.radii)
+        ends = np.concatenate([self.centers - self.radii[:, None], self.centers + self.radii[:, None]])
+        yield next(bounds_and_betti(ends, tuple))
 
     def __post_init__(self):
         centers = as_points(self.centers, name="centers")
@@ -82,7 +93,7 @@ class Polyball(BallBoundary):
         """The number of balls."""
         return len(self.radii)
 
-    def contains(self, queries) -> np.ndarray:
+    def contains(self, queries: ArrayLike) -> NDArray[np.bool_]:
         """Tell which points lie in the closed union of the balls.
 
         Parameters

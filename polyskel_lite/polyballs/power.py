@@ -52,7 +52,7 @@ class PowerTriangulation(NamedTuple):
     simplices: np.ndarray
     neighbors: np.ndarray
     orthocenters: np.ndarray
-    count: int
+    count: int  # type: ignore[assignment] # and not the method of tuples
     found: tuple = (np.zeros((0, 2), dtype=np.int64), np.zeros((0, 3), dtype=np.int64))
 
     def real(self) -> np.ndarray:
@@ -65,7 +65,7 @@ class PowerTriangulation(NamedTuple):
         >>> int(balls.real().sum())
         1
         """
-        return (self.simplices < self.count).all(axis=1)
+        return np.asarray((self.simplices < self.count).all(axis=1))
 
     def faces(self, size: int) -> np.ndarray:
         """All pairs (size 2) or triples (size 3) of balls whose power cells meet, sorted, (m, size).

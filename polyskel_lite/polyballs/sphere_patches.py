@@ -162,7 +162,7 @@ def _hulls(union: BallUnion, parts, on_arcs, rims) -> _Hulls:
             shared, rim = np.unique(rim, return_inverse=True)
             rim = rim.reshape(-1, 2)
             places = (on_arcs[shared] - centers[ball]) / radii[ball]
-            inner = _inner(covered, ball, parts[ball], places[rim])
+            inner = _inner(covered, int(ball), parts[ball], places[rim])
             found = _hull(np.concatenate([places, inner]))
         else:
             shared = np.zeros(0, dtype=np.int64)
@@ -173,8 +173,9 @@ def _hulls(union: BallUnion, parts, on_arcs, rims) -> _Hulls:
         edges.append(rim + copies)
         number += len(inner)
         copies += len(shared) + len(inner)
-    joined = map(np.concatenate, (vertices, names, triangles, edges))
-    return _Hulls(*joined, np.repeat(np.repeat(balls, 2), [len(part) for part in names]))
+    owner = np.repeat(np.repeat(balls, 2), [len(part) for part in names])
+    places, called, faces, rims = map(np.concatenate, (vertices, names, triangles, edges))
+    return _Hulls(places, called, faces, rims, owner)
 
 
 def _inner(covered: Caps, ball: int, parts: int, rim: np.ndarray) -> np.ndarray:

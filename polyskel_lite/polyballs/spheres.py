@@ -156,8 +156,9 @@ def _all_around(balls, graph) -> tuple[np.ndarray, np.ndarray] | None:
         pairs.append(np.column_stack([np.full(len(row), k), row]))
         x, y = graph[row][:, row].nonzero()
         triples.append(np.column_stack([np.full(len(x), k), row[x], row[y]])[x < y])
-    pairs, triples = (np.sort(np.concatenate(rows), axis=1) for rows in (pairs, triples))
-    return tuple(unique_rows(rows, graph.shape[0])[0] for rows in (pairs, triples))
+    found = (np.sort(np.concatenate(rows), axis=1) for rows in (pairs, triples))
+    pairs, triples = (unique_rows(rows, graph.shape[0])[0] for rows in found)
+    return pairs, triples
 
 
 def _deepest(places, centers, radii) -> tuple[np.ndarray, np.ndarray]:

@@ -139,8 +139,11 @@ def densified(points: np.ndarray, facets: np.ndarray, spacing: float | None, flo
     if abs(exponent) <= 200:
         return _densified(points, facets, spacing, floor)
     # In a unit in which squares of lengths are ordinary floats; a power of two changes no digit.
-    small = (None if value is None else float(np.ldexp(value, -exponent)) for value in (spacing, floor))
-    more, facets, tessellation = _densified(np.ldexp(points, -exponent), facets, *small, exponent)
+    spacing, floor = (
+        None if value is None else float(np.ldexp(value, -exponent)) for value in (spacing, floor)
+    )
+    small = np.ldexp(points, -exponent)
+    more, facets, tessellation = _densified(small, facets, spacing, floor, exponent)
     back = None if tessellation is None else moved_back(tessellation, exponent, points)
     if back is not None:
         return back.points, facets, back

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_flag, as_indices, as_number, as_path, as_points, check_distinct
 from ..errors import InputError, ShapeError, TessellationError
 from ..exact import locate
-from ..files import trace, write_surface
+from ..files import on_disk, trace
 from ..graphs import Tessellation, compiled_wanted, delaunay, facet_rows
-from .boundary import Boundary, only_in
+from ..tables import bounds_and_betti
+from .boundary import only_in
 from .density import densified
+from .exchange import Exchange
 from .meshes import check_mesh, turned
 from .reading import mended, read_shape, telling_of_mend
 from .rings import check_closed, check_meetings, check_turns, oriented, ring_facets
 from .sampling import sample_rings
 
 
-def check_shape(shape) -> None:
+def check_shape(shape: Any) -> None:
     """Raise `InputError` if ``shape`` is no `Shape`.
 
     Examples
@@ -37,8 +41,8 @@ def check_shape(shape) -> None:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class Shape(Boundary):
+@dataclass(frozen=True, eq=False, repr=False)
+class Shape(Exchange):
     """A closed region of the plane or of space, given by its oriented boundary (the P of section 2.1).
 
     Parameters
@@ -92,12 +96,17 @@ class Shape(Boundary):
     (1.0, (1, 0, 0))
     """
 
-    points: np.ndarray
-    facets: np.ndarray
+    points: NDArray[np.float64]
+    facets: NDArray[np.int64]
 
-    def __repr__(self):
-        kind = "segments" if self.dimension == 2 else "triangles"
-        return f"Shape({self.dimension}D, {len(self.points):,} points, {len(self.facets):,} {kind})"
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(self, points: ArrayLike, facets: ArrayLike) -> None: ...
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "points", len(self.points)
+        yield "segments" if self.dimension == 2 else "triangles", len(self.facets)
+        yield from bounds_and_betti(self.points, self.betti)
 
     def __post_init__(self):
         points = as_points(self.points, dimensions=(2, 3))
@@ -193,7 +202,7 @@ class Shape(Boundary):
         return shape
 
     @classmethod
-    def from_mesh(cls, V, F, turn: bool = False, mend: bool = False) -> Shape:
+    def from_mesh(cls, V: ArrayLike, F: ArrayLike, turn: bool = False, mend: bool = False) -> Shape:
         """Make a solid from a closed triangle mesh.
 
         Parameters
@@ -233,7 +242,7 @@ class Shape(Boundary):
             return cls(V, turned(V, F) if as_flag(turn, "turn") else F)
 
     @classmethod
-    def from_mask(cls, image, level: float | None = None, **options) -> Shape:
+    def from_mask(cls, image: ArrayLike, level: float | None = None, **options: Any) -> Shape:
         """Make a shape from a picture by marching squares; see `polyskel_lite.files.trace`.
 
         Examples
@@ -244,12 +253,15 @@ class Shape(Boundary):
         return cls.from_rings(trace(image, level, **options))
 
     @classmethod
-    def from_file(cls, path: str | PathLike, *, turn: bool = False, mend: bool = False, **options) -> Shape:
+    def from_file(
+        cls, path: str | PathLike | IO, *, turn: bool = False, mend: bool = False, **options: Any
+    ) -> Shape:
         """Read a shape from GeoJSON, SVG, PNG, STL, PLY, OBJ or OFF; see `polyskel_lite.files.read_file`.
 
         Parameters
         ----------
-        path : str or path
+        path : str or path or open file
+            An open file, of bytes or text, is read as its name says, or ``name="drawing.svg"``.
         turn : bool
             Meshes only: as for `Shape.from_mesh`.
         mend : bool
@@ -263,23 +275,12 @@ class Shape(Boundary):
         Traceback (most recent call last):
         polyskel_lite.errors.InputError: ...
         """
+        if hasattr(path, "read"):  # an open file: its name says what is in it
+            with on_disk(path, options.pop("name", None)) as copy:
+                return read_shape(cls, copy, turn, mend, options)
         return read_shape(cls, as_path(path), turn, mend, options)
 
-    def to_file(self, path: str | PathLike) -> None:
-        """Write the boundary as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D also as STL or OFF.
-
-        Needs the extra ``meshes``. PLY, OBJ, OFF and VTK keep the coordinates to the last bit; STL and
-        glTF round them to single precision. See `polyskel_lite.files.write_surface`.
-
-        Examples
-        --------
-        >>> Shape.from_rings([[(0, 0), (2, 0), (0, 2)]]).to_file("triangle.stl")  # doctest: +ELLIPSIS
-        Traceback (most recent call last):
-        polyskel_lite.errors.InputError: triangle.stl: a shape in the plane cannot be written as '.stl'; ...
-        """
-        write_surface(path, self.points, self.facets)
-
-    def contains(self, queries) -> np.ndarray:
+    def contains(self, queries: ArrayLike) -> NDArray[np.bool_]:
         """Whether each query point is in the closed region; exact, boundary points are inside.
 
         Parameters
@@ -298,7 +299,7 @@ class Shape(Boundary):
         """
         return self.locate(queries) >= 0
 
-    def locate(self, queries) -> np.ndarray:
+    def locate(self, queries: ArrayLike) -> NDArray[np.int8]:
         """+1 for queries in the interior, 0 on the boundary, -1 outside; exact.
 
         Examples
@@ -310,7 +311,7 @@ class Shape(Boundary):
         queries = as_points(queries, name="queries", dimensions=(self.dimension,))
         return locate(self.segments, queries)
 
-    def sample(self, n: int, start: float = 0.0) -> np.ndarray:
+    def sample(self, n: int, start: float = 0.0) -> NDArray[np.float64]:
         """Points E on the boundary, uniform by arc length on every ring (section 2.1, sampling; 2D only).
 
         Parameters

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from numbers import Real
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..checks import as_array, as_choice, as_indices, as_instance, shown
 from ..containment import DelaunayShape, delaunay_shape
 from ..errors import InputError
 from ..graphs import ordinary
+from ..shapes import Shape
 from ..skeletons import Skeleton, branch_graph, dual_complex
+from ..tables import Described, bounds_and_betti
 from . import collapse
 from .criteria import face_angles, facet_measures
 
@@ -25,8 +29,8 @@ STRATEGIES = {2: ("branch",), 3: ("surface", "wireframe")}
 _CRITERIA = ("corrected", "transcript")
 
 
-@dataclass(frozen=True, eq=False)
-class Hierarchy:
+@dataclass(frozen=True, eq=False, repr=False)
+class Hierarchy(Described):
     """All simplified skeletons of a shape, nested: made by `hierarchy`.
 
     Attributes
@@ -57,12 +61,19 @@ class Hierarchy:
     P: DelaunayShape
     strategy: str
     criterion: str
-    level: np.ndarray
-    kind: np.ndarray
-    order: np.ndarray
+    level: NDArray[np.float64]
+    kind: NDArray[np.int8]
+    order: NDArray[np.int64]
 
-    def __repr__(self):
-        return f"Hierarchy({self.P.dimension}D, {self.strategy!r}, {len(self.level):,} simplices)"
+    @property
+    def dimension(self) -> int:
+        """N, the dimension of the space."""
+        return self.P.dimension
+
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        yield "strategy", repr(self.strategy)
+        yield "simplices", len(self.level)
+        yield from bounds_and_betti(self.P.used_points(), self.P.betti)
 
     def __post_init__(self):
         as_instance(self.P, DelaunayShape, "P", "a DelaunayShape, and get a Hierarchy from hierarchy(P)")
@@ -77,12 +88,12 @@ class Hierarchy:
             )
 
     @cached_property
-    def simplices(self) -> np.ndarray:
+    def simplices(self) -> NDArray[np.intp]:
         """The inner simplices, (k,): rows of ``P.tessellation.simplices``."""
         return np.flatnonzero(self.P.inner)
 
     @cached_property
-    def rank(self) -> np.ndarray:
+    def rank(self) -> NDArray[np.intp]:
         """The position of each inner simplex in `order`, (k,) int array; k for those that never go.
 
         Examples
@@ -96,7 +107,7 @@ class Hierarchy:
         rank[self.order] = np.arange(len(self.order))
         return rank
 
-    def kept(self, threshold: float) -> np.ndarray:
+    def kept(self, threshold: float) -> NDArray[np.bool_]:
         """Which simplices of the tessellation stay at a threshold (level >= threshold), (t,) bool array.
 
         Examples
@@ -150,7 +161,9 @@ class Hierarchy:
         return branch_graph(self.skeleton(threshold))
 
 
-def hierarchy(P, strategy: str | None = None, criterion: str = "corrected") -> Hierarchy:
+def hierarchy(
+    P: DelaunayShape | Shape, strategy: str | None = None, criterion: str = "corrected"
+) -> Hierarchy:
     """Remove hats and salients, and note for each simplex the threshold at which it goes (sections 4.1-4.3).
 
     Parameters

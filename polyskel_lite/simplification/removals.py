@@ -32,8 +32,8 @@ class Removal(NamedTuple):
     shared: int
     length: float
     radius: float
-    before: tuple[int, int]
-    after: tuple[int, int]
+    before: tuple[int, ...]
+    after: tuple[int, ...]
 
     @property
     def value(self) -> float:

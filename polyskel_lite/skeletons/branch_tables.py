@@ -1,13 +1,22 @@
-"""The branches of a skeleton as a table: lengths and radii, for the page and for spreadsheets."""
+"""The branches of a skeleton as a table: lengths and radii, for the page, spreadsheets and pandas."""
 
 from __future__ import annotations
 
 import csv
 import io
-from typing import NamedTuple
+from dataclasses import replace
+from os import PathLike
+from typing import TYPE_CHECKING, NamedTuple
 
+from ..errors import InputError
+from ..files import writing
+from ..tables import Table, table
+from .axes import Axis, axis_of
 from .branches import branch_graph
-from .skeleton import Skeleton
+from .complexes import BallComplex
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Branch(NamedTuple):
@@ -21,6 +30,8 @@ class Branch(NamedTuple):
         In the unit of the coordinates: of the edges, and without their zigzag between the samples.
     mean_radius, least_radius, largest_radius : float
         Of the balls along it; the mean counts every piece by its length. The width is twice the radius.
+    axis : Axis or None
+        The line itself; its ``stations`` say how wide the shape is along the branch.
     """
 
     start: str
@@ -30,9 +41,85 @@ class Branch(NamedTuple):
     mean_radius: float
     least_radius: float
     largest_radius: float
+    axis: Axis | None = None
 
 
-def branch_rows(skeleton: Skeleton) -> list[Branch]:
+#: The columns of a table of branches: everything that is a word or a number.
+COLUMNS = Branch._fields[:-1]
+_HEAD = [name.replace("_", " ") for name in COLUMNS]
+
+
+class Branches(list[Branch]):
+    """The branches of a skeleton, the longest first: a list, and a table in a notebook.
+
+    Examples
+    --------
+    >>> rows = Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)])
+    >>> print(rows.to_csv())
+    start,end,length,smooth_length,mean_radius,least_radius,largest_radius
+    end 0,end 4,4.5,4.4,1.0,0.9,1.2
+    """
+
+    def __repr__(self) -> str:
+        return repr(self.table())
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()
+
+    def table(self) -> Table:
+        """The same with four digits, as a notebook and a terminal show it.
+
+        Examples
+        --------
+        >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).table()
+        start  end    length  smooth length  mean radius  least radius  largest radius
+        end 0  end 4     4.5            4.4            1           0.9             1.2
+        """
+        made = table([[*row[:2], *(f"{x:.4g}" for x in row[2:-1])] for row in self], _HEAD)
+        return replace(made, words=tuple(k < 2 for k in range(len(_HEAD))))
+
+    def records(self) -> list[dict[str, str | float]]:
+        """A dict for each branch, of words and numbers, as JSON and pandas take them.
+
+        Examples
+        --------
+        >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).records()[0]["length"]
+        4.5
+        """
+        return [dict(zip(COLUMNS, row[:-1], strict=True)) for row in self]
+
+    def to_csv(self, path: str | PathLike | None = None) -> str:
+        """Comma-separated values, one branch a line, with all digits; also as a file, if one is named.
+
+        Examples
+        --------
+        >>> Branches().to_csv().count(",")
+        6
+        """
+        stream = io.StringIO()
+        csv.writer(stream, lineterminator="\n").writerows([COLUMNS, *(row[:-1] for row in self)])
+        text = stream.getvalue().rstrip("\n")
+        if path is not None:
+            with writing(path) as place:
+                place.write_text(text + "\n", encoding="utf-8")
+        return text
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The same as a pandas DataFrame (needs pandas).
+
+        Examples
+        --------
+        >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).to_dataframe().shape
+        (1, 7)
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise InputError("pandas is not installed; run: pip install pandas") from None
+        return pandas.DataFrame(self.records(), columns=list(COLUMNS))
+
+
+def branch_rows(skeleton: BallComplex) -> Branches:
     """List the branches of a skeleton, the longest first (needs the extra ``graph``).
 
     Examples
@@ -46,23 +133,10 @@ def branch_rows(skeleton: Skeleton) -> list[Branch]:
     graph = branch_graph(skeleton)
     rows = []
     for a, b, data in graph.edges(data=True):
-        ends = (f"{graph.nodes[node]['kind']} {node}" for node in (a, b))
-        numbers = (data[name] for name in ("length", "smooth_length", "mean_radius"))
-        rows.append(Branch(*ends, *numbers, min(data["radii"]), max(data["radii"])))
-    return sorted(rows, key=lambda row: (-row.length, row))
-
-
-def branch_csv(rows: list[Branch]) -> str:
-    """Write branches as comma-separated values, one a line, with all digits.
-
-    Examples
-    --------
-    >>> print(branch_csv([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]))
-    start,end,length,smooth_length,mean_radius,least_radius,largest_radius
-    end 0,end 4,4.5,4.4,1.0,0.9,1.2
-    """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(Branch._fields)
-    writer.writerows(rows)
-    return text.getvalue().rstrip("\n")
+        start, end = (f"{graph.nodes[node]['kind']} {node}" for node in (a, b))
+        length, smooth, mean = (data[name] for name in ("length", "smooth_length", "mean_radius"))
+        radii = data["radii"]
+        rows.append(
+            Branch(start, end, length, smooth, mean, min(radii), max(radii), axis_of(skeleton, data["path"]))
+        )
+    return Branches(sorted(rows, key=lambda row: (-row.length, row[:-1])))

@@ -9,13 +9,13 @@ import numpy as np
 from ..checks import as_instance
 from ..errors import InputError
 from ..exact import components, occurrences, spread_out
-from .skeleton import Skeleton
+from .complexes import BallComplex
 
 if TYPE_CHECKING:
     import networkx
 
 
-def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
+def branch_graph(skeleton: BallComplex) -> networkx.MultiGraph:
     """The branches of a skeleton as a networkx multigraph (needs the extra ``graph``).
 
     Polygons stay what they are: only edges that bound no polygon are chained. The sheets, sets of
@@ -42,7 +42,7 @@ def branch_graph(skeleton: Skeleton) -> networkx.MultiGraph:
     >>> sorted(kind for _, kind in graph.nodes(data="kind"))
     ['end', 'end']
     """
-    as_instance(skeleton, Skeleton, "skeleton", "a Skeleton, such as sk0(shape)")
+    as_instance(skeleton, BallComplex, "skeleton", "a Skeleton, such as sk0(shape)")
     try:
         import networkx
     except ImportError:
@@ -113,8 +113,8 @@ def _place(skeleton, v):
     return {"pos": tuple(skeleton.vertices[v].tolist()), "radius": float(skeleton.radii[v])}
 
 
-def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
-    """Lengths of chains of Voronoi vertices without their zigzag between the samples.
+def smooth_chains(points: np.ndarray, radii: np.ndarray, sizes) -> tuple[np.ndarray, np.ndarray]:
+    """Chains of Voronoi vertices without their zigzag between the samples.
 
     Every point of a chain is replaced by the mean of the piece around it that is as long as its radius, half
     to each side, shorter towards the ends, which stay.
@@ -129,19 +129,19 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
 
     Returns
     -------
-    (m,) float array
+    points : (s, N) float array
+        Seen from the beginning of the chain: four for each vertex, at equal steps, and the end of the chain.
+    radii : (s,) float array
 
     Examples
     --------
     >>> x = np.arange(0, 16.25, 0.25)
     >>> zigzag = np.column_stack([x, 0.1 * (np.arange(len(x)) % 2)])
-    >>> raw = float(np.linalg.norm(np.diff(zigzag, axis=0), axis=1).sum())
-    >>> round(raw, 1), smooth_lengths(zigzag, np.full(len(x), 2.0), [len(x)]).round(1).tolist()
-    (17.2, [16.0])
+    >>> places, radii = smooth_chains(zigzag, np.full(len(x), 2.0), [len(x)])
+    >>> len(places), places[130].round(2).tolist(), float(radii[130])
+    (261, [8.0, 0.05], 2.0)
     """
     sizes = np.asarray(sizes, dtype=np.intp)
-    if not len(sizes):
-        return np.zeros(0)
     first, last = np.cumsum(sizes) - sizes, np.cumsum(sizes) - 1
     # Seen from their own beginning, chains far from the origin lose no digits in the integral below.
     points = points - np.repeat(points[first], sizes, axis=0)
@@ -151,7 +151,6 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
     # The integral of the chains up to each vertex; within a piece it is a parabola.
     steps = pieces[:, None] * (points[1:] + points[:-1]) / 2
     integral = np.concatenate([np.zeros_like(points[:1]), np.cumsum(steps, axis=0)])
-    # Four places for each vertex, and the two ends.
     count = 4 * sizes + 1
     chain, place = spread_out(count)
     share = place / (count - 1)[chain]
@@ -171,22 +170,40 @@ def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
 
     k = vertex_before(s)
     part = (s - along[k]) / np.where(pieces[k] > 0, pieces[k], 1)
-    half = np.minimum((radii[k] + part * (radii[k + 1] - radii[k])) / 2, np.minimum(s - begin, end - s))
+    radii = radii[k] + part * (radii[k + 1] - radii[k])
+    half = np.minimum(radii / 2, np.minimum(s - begin, end - s))
     wide = ((half > 0) & (share > 0) & (share < 1))[:, None]  # the ends stay
     mean = (up_to(s + half) - up_to(s - half)) / np.where(wide, 2 * half[:, None], 1)
-    ways = np.linalg.norm(np.diff(np.where(wide, mean, at(s, k)), axis=0), axis=1)
-    ways = np.append(ways, 0.0)
-    ways[np.cumsum(count) - 1] = 0
+    return np.where(wide, mean, at(s, k)), radii
+
+
+def smooth_lengths(points: np.ndarray, radii: np.ndarray, sizes) -> np.ndarray:
+    """Lengths of the chains that `smooth_chains` makes, (m,) float array.
+
+    Examples
+    --------
+    >>> x = np.arange(0, 16.25, 0.25)
+    >>> zigzag = np.column_stack([x, 0.1 * (np.arange(len(x)) % 2)])
+    >>> raw = float(np.linalg.norm(np.diff(zigzag, axis=0), axis=1).sum())
+    >>> round(raw, 1), smooth_lengths(zigzag, np.full(len(x), 2.0), [len(x)]).round(1).tolist()
+    (17.2, [16.0])
+    """
+    if not len(sizes):
+        return np.zeros(0)
+    count = 4 * np.asarray(sizes, dtype=np.intp) + 1
+    ways = np.append(np.linalg.norm(np.diff(smooth_chains(points, radii, sizes)[0], axis=0), axis=1), 0.0)
+    ways[np.cumsum(count) - 1] = 0  # from one chain to the next
     return np.add.reduceat(ways, np.cumsum(count) - count)
 
 
-def free_edges(skeleton: Skeleton) -> np.ndarray:
+def free_edges(skeleton: BallComplex) -> np.ndarray:
     """Rows of ``edges`` that are the side of no polygon: the wires.
 
     Examples
     --------
+    >>> import polyskel_lite as psl
     >>> edges = np.array([(0, 1), (1, 2), (2, 0), (2, 3)])
-    >>> flag = Skeleton(np.zeros((4, 3)), np.ones(4), np.arange(4), edges, [[0, 1, 2]])
+    >>> flag = psl.Skeleton(np.zeros((4, 3)), np.ones(4), np.arange(4), edges, [[0, 1, 2]])
     >>> free_edges(flag).tolist()
     [3]
     """
@@ -198,7 +215,7 @@ def free_edges(skeleton: Skeleton) -> np.ndarray:
     return np.flatnonzero(~np.isin(key, np.sort(sides, axis=1) @ np.array([n, 1])))
 
 
-def _sheet_of(skeleton: Skeleton):
+def _sheet_of(skeleton: BallComplex):
     """For each vertex the sheet it is on, or -1, and the vertices of each sheet."""
     n = len(skeleton.vertices)
     node = np.full(n, -1)

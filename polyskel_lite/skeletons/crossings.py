@@ -27,7 +27,9 @@ def pierced(skeleton: Skeleton, shape: Shape, error: float) -> np.ndarray:
     []
     """
     polygons = skeleton.polygons
-    points, cells = skeleton.tessellation.points, skeleton.tessellation.simplices[skeleton.simplices]
+    tessellation = skeleton.tessellation
+    assert tessellation is not None
+    points, cells = tessellation.points, tessellation.simplices[skeleton.simplices]
     extent = float(max(np.abs(points).max(), np.abs(shape.points).max()))
     pierced = np.zeros(len(polygons), dtype=bool)
     if not len(polygons):

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..checks import as_number, as_points
 from ..errors import InputError
@@ -10,8 +13,11 @@ from ..exact import facet_distance, nearest_facets
 from ..shapes import Shape, halved
 from .skeleton import Skeleton
 
+#: What distances are measured between.
+Measurable: TypeAlias = Skeleton | Shape | ArrayLike
 
-def directed_hausdorff(A, B, step: float | None = None) -> float:
+
+def directed_hausdorff(A: Measurable, B: Measurable, step: float | None = None) -> float:
     """The largest distance from a point of A to the set B; zero when A is part of B.
 
     Parameters
@@ -48,7 +54,7 @@ def directed_hausdorff(A, B, step: float | None = None) -> float:
     return _directed(a, b, step)
 
 
-def hausdorff(A, B, step: float | None = None) -> float:
+def hausdorff(A: Measurable, B: Measurable, step: float | None = None) -> float:
     """Hausdorff distance: the larger one of the two directed distances.
 
     Parameters

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from numpy.typing import ArrayLike
+
 from ..checks import as_choice
 from ..containment import DelaunayShape, delaunay_shape
+from ..graphs import Tessellation
 from ..shapes import Shape, check_shape
 from .inside import VoronoiInside
 from .skeleton import Skeleton
@@ -54,7 +57,7 @@ def sk0(P: DelaunayShape | Shape, side: str = "inner") -> Skeleton:
     return dual_complex(P.tessellation, keep, cut=cut, rays=side == "outer")
 
 
-def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:
+def sk1(shape: Shape, E: ArrayLike | Tessellation | None = None, side: str = "inner") -> Skeleton:
     """Sk1, the Voronoi vertices in the shape (section 3.1).
 
     Parameters
@@ -85,7 +88,7 @@ def sk1(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     return _voronoi(shape, E, side).vertices()
 
 
-def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
+def sk2(shape: Shape, E: ArrayLike | Tessellation | None = None, side: str = "inner") -> Skeleton:
     """Sk2, the Voronoi elements that are wholly in the shape (section 3.2).
 
     Parameters
@@ -119,7 +122,7 @@ def sk2(shape: Shape, E=None, side: str = "inner") -> Skeleton:
     return _voronoi(shape, E, side).elements()
 
 
-def sk3(shape: Shape, E=None, side: str = "inner") -> Skeleton:
+def sk3(shape: Shape, E: ArrayLike | Tessellation | None = None, side: str = "inner") -> Skeleton:
     """Sk3, the part of the Voronoi graph that is in the shape (section 3.3).
 
     Parameters

@@ -86,7 +86,7 @@ class VoronoiInside:
     def intersection(self) -> Skeleton:
         """Sk3: Sk2 and the pieces of cut edges that are inside, with a vertex at every cut."""
         sk2 = self.elements()
-        tessellation, n = sk2.tessellation, sk2.dimension
+        tessellation, n = self.tessellation, sk2.dimension
         number = np.where(self.inside, np.cumsum(self.inside) - 1, -1)
         facets, sides = tessellation.facet_table
         points, radii, edges, rays, ray_vertices = [], [], [], [], []
@@ -166,7 +166,8 @@ class VoronoiInside:
             self.pieces[row] = list(cuts)[0 if starts_inside[row] else 1 :: 2]
         for row in np.flatnonzero(doubt).tolist():
             near = np.flatnonzero(((low[row] <= self.high) & (self.low <= high[row])).all(axis=1))
-            pieces = clip_rational(self.boundary, near, *self._exact_ends(row), self.side)
+            start, end = self._exact_ends(row)
+            pieces = clip_rational(self.boundary, near, start, end, self.side)
             whole[row] = pieces == [(0, 1)]
             if pieces and not whole[row]:
                 self.pieces[row] = pieces

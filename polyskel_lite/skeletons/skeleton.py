@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..checks import as_array, as_indices, as_instance, as_number, as_path, as_points
 from ..containment import DelaunayShape
 from ..errors import InputError
 from ..exact import Polygons, betti_numbers
-from ..files import read_arrays, write_complex, writing
+from ..files import read_arrays, writing
 from ..graphs import Tessellation
+from ..tables import bounds_and_betti
+from .readings import Readings
 
 if TYPE_CHECKING:
     import networkx
 
 
-@dataclass(frozen=True, eq=False)
-class Skeleton:
+@dataclass(frozen=True, eq=False, repr=False)
+class Skeleton(Readings):
     """Vertices, edges and (in 3D) polygons of a skeleton, with the balls around its vertices.
 
     The complex is abstract: two vertices can stand at one place (cocircular samples) without being
@@ -56,29 +59,45 @@ class Skeleton:
     (1, 0)
     """
 
-    vertices: np.ndarray
-    radii: np.ndarray
-    simplices: np.ndarray
-    edges: np.ndarray
-    polygons: Sequence[np.ndarray] = ()
-    rays: np.ndarray | None = None
-    ray_vertices: np.ndarray | None = None
+    vertices: NDArray[np.float64]
+    radii: NDArray[np.float64]
+    simplices: NDArray[np.int64]
+    edges: NDArray[np.int64]
+    polygons: Polygons = ()  # type: ignore[assignment] # these three as they can be given
+    rays: NDArray[np.float64] = None  # type: ignore[assignment]
+    ray_vertices: NDArray[np.int64] = None  # type: ignore[assignment]
     tessellation: Tessellation | None = None
+    if TYPE_CHECKING:  # what is given may be any array-like, what is kept is an array
+
+        def __init__(
+            self,
+            vertices: ArrayLike,
+            radii: ArrayLike,
+            simplices: ArrayLike,
+            edges: ArrayLike,
+            polygons: Sequence[ArrayLike] | Polygons = (),
+            rays: ArrayLike | None = None,
+            ray_vertices: ArrayLike | None = None,
+            tessellation: Tessellation | None = None,
+        ) -> None: ...
+
     #: `Polyball`, which puts itself here: its skeleton is a Skeleton, so the rooms cannot both import.
     _polyball: ClassVar[Callable[..., Any]]
 
-    def __repr__(self):
-        also = [f"{len(some):,} {name}" for name in ("polygons", "rays") if len(some := getattr(self, name))]
-        counts = [f"{len(self.vertices):,} vertices", f"{len(self.edges):,} edges", *also]
-        return f"Skeleton({self.dimension}D, {', '.join(counts)})"
+    def _facts(self) -> Iterator[tuple[str, object]]:
+        counts = {name: len(getattr(self, name)) for name in ("vertices", "edges", "polygons", "rays")}
+        yield from (fact for fact in counts.items() if fact[1] or fact[0] in ("vertices", "edges"))
+        yield from bounds_and_betti(self.vertices, self.betti)
 
     def __post_init__(self):
         self._check()
-        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
-        object.__setattr__(self, "edges", np.asarray(self.edges, dtype=np.intp))
         if self.rays is None:
-            object.__setattr__(self, "rays", np.zeros((0, self.dimension)))
+            object.__setattr__(self, "rays", np.zeros((0, np.shape(self.vertices)[1])))
             object.__setattr__(self, "ray_vertices", np.zeros(0, dtype=np.int64))
+        # The integer that NumPy counts with: np.bincount(edges.ravel()) works in a browser too (32 bits).
+        kinds = {"vertices": float, "radii": float, "simplices": np.int64, "edges": np.intp}
+        for name, kind in {**kinds, "rays": float, "ray_vertices": np.int64}.items():
+            object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=kind))
 
     def _check(self) -> None:
         """Raise `InputError` unless the arrays fit together; every number is one of the kind it should be."""
@@ -112,56 +131,7 @@ class Skeleton:
                 f"{len(self.ray_vertices)} ray_vertices for {len(self.rays)} rays; pass one each."
             )
 
-    @property
-    def dimension(self) -> int:
-        """N, the dimension of the space."""
-        return self.vertices.shape[1]
-
-    def segments(self) -> np.ndarray:
-        """End points of every edge, (e, 2, N).
-
-        Examples
-        --------
-        >>> import polyskel_lite as psl
-        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).segments().shape
-        (1, 2, 2)
-        """
-        return self.vertices[self.edges]
-
-    def lengths(self) -> np.ndarray:
-        """Length of every edge, (e,).
-
-        Examples
-        --------
-        >>> import polyskel_lite as psl
-        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).lengths().round(3).tolist()
-        [0.559]
-        """
-        return np.hypot.reduce(self.vertices[self.edges[:, 1]] - self.vertices[self.edges[:, 0]], axis=1)
-
-    def length(self) -> float:
-        """Total length of the edges (rays not counted).
-
-        Examples
-        --------
-        >>> import polyskel_lite as psl
-        >>> psl.voronoi([(0, 0), (2, 0), (0, 2), (2, 2)]).length()
-        0.0
-        """
-        return float(self.lengths().sum())
-
-    def ends(self) -> np.ndarray:
-        """The vertices with exactly one edge, in increasing order.
-
-        Examples
-        --------
-        >>> import polyskel_lite as psl
-        >>> psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]).ends().tolist()
-        [0, 1]
-        """
-        return np.flatnonzero(np.bincount(self.edges.ravel()) == 1)
-
-    def contacts(self, vertex: int) -> np.ndarray:
+    def contacts(self, vertex: int) -> NDArray[np.float64]:
         """The samples on the ball of a vertex that is dual to a simplex: its corners, (N + 1, N).
 
         Examples
@@ -278,22 +248,6 @@ class Skeleton:
             data |= {f"tessellation_{name}": getattr(self.tessellation, name) for name in _TESSELLATION}
         with writing(path) as path, path.open("wb") as file:
             np.savez_compressed(file, **data)
-
-    def to_file(self, path: str | PathLike) -> None:
-        """Write edges and polygons for other programs, as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu).
-
-        Needs the extra ``meshes``. PLY and VTK keep the radii, and `save` keeps everything. See
-        `polyskel_lite.files.write_complex`.
-
-        Examples
-        --------
-        >>> import polyskel_lite as psl
-        >>> psl.voronoi([(0, 0), (2, 0), (0, 2)]).to_file("corner.stl")  # doctest: +ELLIPSIS
-        Traceback (most recent call last):
-        polyskel_lite.errors.InputError: corner.stl: a skeleton cannot be written as '.stl'; ...
-        """
-        data = {"radius": self.radii, "simplex": self.simplices.astype(np.int32)}
-        write_complex(path, self.vertices, self.edges, self.polygons, data)
 
     @classmethod
     def load(cls, path: str | PathLike) -> Skeleton:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..exact import Polygons, dual_polygons, normals_of, orientation
 from ..graphs import Tessellation, as_tessellation
@@ -39,7 +40,7 @@ def dual_complex(
     crossed = None if cut is None else _local(tessellation, cut)
     beyond = number[tessellation.neighbors[simplices]]
     # As in the table of facets: those of the first simplex first, and each from its first simplex.
-    dual = (beyond > np.arange(len(simplices))[:, None]) & (True if cut is None else ~crossed[simplices])
+    dual = (beyond > np.arange(len(simplices))[:, None]) & (True if crossed is None else ~crossed[simplices])
     edges = np.stack([np.nonzero(dual)[0], beyond[dual]], axis=1)
     polygons = Polygons()
     if tessellation.dimension == 3:
@@ -86,7 +87,7 @@ def _local(tessellation, cut):
     return mask
 
 
-def voronoi(points_or_tessellation) -> Skeleton:
+def voronoi(points_or_tessellation: ArrayLike | Tessellation) -> Skeleton:
     """Voronoi graph Vor(E): the dual of the whole Delaunay tessellation (section 2.2).
 
     Parameters

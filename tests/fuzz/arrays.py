@@ -9,6 +9,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -68,6 +69,8 @@ def calls() -> dict[str, tuple]:
             {"path": folder / "k.npz", "tolerance": 1e-3, "level": 0.5, "smooth": 0.0, "invert": False}
             | {"stroke": False, "turn": False, "mend": False},
         ),
+        "Shape.from_shapely": (psl.Shape.from_shapely, {"geometry": plane.__geo_interface__}),
+        "Shape.from_trimesh": (psl.Shape.from_trimesh, {"mesh": SimpleNamespace(vertices=V, faces=F)}),
         "Shape.to_file": (space.to_file, {"path": folder / "a.stl"}),
         "Shape.contains": (plane.contains, {"queries": POINTS}),
         "Shape.locate": (space.locate, {"queries": V}),
@@ -117,6 +120,8 @@ def calls() -> dict[str, tuple]:
             }
             | {"tessellation": k.tessellation},
         ),
+        "Skeleton.main_axis": (k.main_axis().stations, {"spacing": 0.5}),
+        "Skeleton.branch_table": (k.branch_table().to_csv, {"path": folder / "k.csv"}),
         "Skeleton.contacts": (k.contacts, {"vertex": 0}),
         "Skeleton.load": (psl.Skeleton.load, {"path": folder / "k.npz"}),
         "Skeleton.save": (k.save, {"path": folder / "k2.npz"}),

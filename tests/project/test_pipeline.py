@@ -108,12 +108,13 @@ def test_a_fine_mesh_keeps_its_samples_and_a_straight_bar_its_length():
 def test_what_is_printed_is_one_short_line():
     bones = psl.skeleton([[(0, 0), (20, 0), (20, 4), (0, 4)]])
     voronoi, P = psl.voronoi([(0, 0), (2, 0), (0, 2)]), bones.hierarchy.P
-    assert repr(bones.given) == "Shape(2D, 4 points, 4 segments)"
-    assert repr(voronoi) == "Skeleton(2D, 1 vertices, 0 edges, 3 rays)"
-    assert repr(voronoi.tessellation) == "Tessellation(2D, 3 points, 1 triangles)"
-    assert repr(voronoi.balls()) == "Polyball(2D, 1 balls)"
-    assert repr(P) == f"DelaunayShape({P.inner.sum()} inner simplices of {P.tessellation})"
-    assert repr(bones.hierarchy) == f"Hierarchy(2D, 'branch', {P.inner.sum()} simplices)"
+    assert repr(bones.given) == "Shape(2D, 4 points, 4 segments, (0, 0) to (20, 4), Betti (1, 0))"
+    assert repr(voronoi) == "Skeleton(2D, 1 vertices, 0 edges, 3 rays, (1, 1) to (1, 1), Betti (1, 2))"
+    assert repr(voronoi.tessellation) == "Tessellation(2D, 3 points, 1 triangles, (0, 0) to (2, 2))"
+    assert repr(voronoi.balls()) == "Polyball(2D, 1 balls, (-0.4142, -0.4142) to (2.414, 2.414))"
+    n, about = P.inner.sum(), "(0, 0) to (20, 4), Betti (1, 0)"
+    assert repr(P) == f"DelaunayShape(2D, {n} inner triangles of {n}, {about})"
+    assert repr(bones.hierarchy) == f"Hierarchy(2D, 'branch', {n} simplices, {about})"
     assert repr(bones) == f"Bones({bones.skeleton} at 3, 'branch')"
     assert len(repr(bones)) < 100
 

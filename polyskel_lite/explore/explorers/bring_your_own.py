@@ -191,7 +191,7 @@ class Explore(WithStandIn):
         )
         self._status, self._table, self._links = (ipywidgets.HTML() for _ in range(3))
         self._place = ipywidgets.VBox()
-        self._last: tuple[str | Path, dict] | None = None
+        self._last: tuple[str, bytes] | None = None
         self.upload.observe(self._uploaded, "value")
         for option in (self.smooth, self.invert, self.turn):
             option.observe(lambda _: self._again(), "value")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import contextmanager
+from typing import ClassVar
 
 import ipywidgets
 import numpy as np
@@ -122,8 +123,8 @@ class Explorer(WithStandIn):
         self.add_class("psl-explorer")  # board.js looks for it
         self.update()
 
-    words: Mapping[str, str] = {}
-    live: Mapping[str, str] = {}
+    words: ClassVar[dict[str, str]] = {}
+    live: ClassVar[dict[str, str]] = {}
 
     #: Puts everything on the board for the present controls and handles; every explorer says how.
     draw: Callable[[], None]

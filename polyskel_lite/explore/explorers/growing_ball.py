@@ -99,7 +99,8 @@ class MaximalBall(Explorer):
 
     def _draw_ball(self, center: np.ndarray, radius: float | None) -> int:
         """Draw the ball, its way and the trace; the number of its contacts."""
-        board, ball, contacts, way = self.board, ([], []), (), ()
+        board, contacts, way = self.board, np.zeros((0, 2)), []
+        ball: tuple[list, list] = ([], [])
         if radius is not None:
             ball, contacts = ([center], [radius]), contact_points(self.shape, center, radius)
             way = [[board.handles[0], center]]
@@ -153,5 +154,5 @@ def maximal_ball(shape: Shape | None = None, center=None) -> MaximalBall:
 def _off_the_skeleton(shape: Shape) -> np.ndarray:
     """Halfway from the centre of the largest ball to one of its contacts."""
     found = sk1(shape)
-    largest = found.radii.argmax()
+    largest = int(found.radii.argmax())
     return (found.vertices[largest] + found.contacts(largest)[0]) / 2

@@ -62,7 +62,9 @@ class FourMethods(Explorer):
         """The four skeletons for the present sliders; in place of Sk0 the reason why there is none."""
         n, start = (self.controls[name].value for name in ("n", "start"))
         graph = delaunay(self.shape.sample(n, start))  # once for three of them
-        found = {f.__name__: f(self.shape, graph) for f in (sk1, sk2, sk3)}
+        found: dict[str, Skeleton | PolyskelError] = {
+            f.__name__: f(self.shape, graph) for f in (sk1, sk2, sk3)
+        }
         self._missing = np.empty((0, 2, 2))
         try:
             polygon = self.shape.resample(n, start)
@@ -94,7 +96,7 @@ class FourMethods(Explorer):
 
     def given(self) -> dict[str, object]:
         offsets = {name: offset.tolist() for name, offset in self.offsets.items()}
-        about = {"betti": self.shape.betti(), "offsets": offsets, "heading": self._heading}
+        about: dict[str, object] = {"betti": self.shape.betti(), "offsets": offsets, "heading": self._heading}
         return rings_of(self.shape) | about
 
     def _draw_one(self, name: str, skeleton: Skeleton | PolyskelError, counts: dict, title: str) -> str:

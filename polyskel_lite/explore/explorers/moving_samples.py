@@ -72,7 +72,7 @@ class Graphs(Explorer):
         for name, segments in lines.items():
             board.draw(name, name, name in chosen, lines=segments, label=_WORDS[name])
         number = self.controls["triangle"].value
-        ball = self._rows[number : number + 1] if number >= 0 else []
+        ball = self._rows[number : number + 1 if number >= 0 else number]
         center, radius = graph.circumcenters[ball], graph.circumradii[ball]
         board.draw("ball", "balls", circles=(center, radius), label="ball of one triangle")
         board.draw("center", "voronoi", points=center, width=2)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...skeletons import Branch, branch_csv, branch_rows
+from ...skeletons import Branch, branch_rows
 from ..drawing_board import Board, box_around
 from .explorer import outline
 
@@ -73,7 +73,7 @@ def result_files(h: Hierarchy, threshold: float, name: str) -> dict[str, bytes]:
     ['gear-branches.csv', 'gear-skeleton.npz', 'gear.svg']
     """
     skeleton = h.skeleton(threshold)
-    files = {f"{name}-branches.csv": (branch_csv(branch_rows(skeleton)) + "\n").encode()}
+    files = {f"{name}-branches.csv": (branch_rows(skeleton).to_csv() + "\n").encode()}
     if skeleton.dimension == 2:
         files[f"{name}.svg"] = _picture(h, threshold).encode()
     with tempfile.TemporaryDirectory() as folder:

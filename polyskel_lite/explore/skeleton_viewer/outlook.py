@@ -74,4 +74,5 @@ def clear_view(points: np.ndarray) -> dict[str, float]:
             apart = (azimuth - VIEW["azim"] + 180) % 360 - 180
             found = (covered, -np.hypot(elevation - VIEW["elev"], apart), elevation, azimuth)
             best = found if best is None else max(best, found)
+    assert best is not None
     return {"elev": float(best[2]), "azim": float(best[3])}

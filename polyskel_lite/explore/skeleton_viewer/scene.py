@@ -166,7 +166,7 @@ def pack_scene(states: Sequence[State], variant: str, view) -> tuple[dict[str, A
     variants = []
     for state in states:
         places = {"vertices": turn(state.skeleton.vertices), "rays": turn(state.skeleton.rays)}
-        header = {"label": state.label}
+        header: dict[str, Any] = {"label": state.label}
         header |= pack_skeleton(packer, replace(state.skeleton, **places), radius, *grid)
         if isinstance(state.P, Polyball):
             header |= pack_polyball(packer, state.P, turn, *grid)
