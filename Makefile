@@ -84,11 +84,12 @@ run: $(VENV)/.lab  ## maintainers: run every notebook and store its outputs
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py
 
 lock:  ## maintainers: resolve pyproject.toml anew into requirements/*.lock (needs uv)
-	@uv pip compile pyproject.toml --extra lab --group install --group book --group lite --group test $(LOCKED) \
+	@uv pip compile pyproject.toml --extra lab --extra course --group install --group book --group lite --group test $(LOCKED) \
 	  -o requirements/union.txt
 	@for purpose in "book --group book" "lab pyproject.toml --extra lab --group install" \
 	  "lite pyproject.toml --extra graph --group install --group lite" \
-	  "test pyproject.toml --extra lab --group install --group lite --group test"; do \
+	  "course pyproject.toml --extra lab --extra course --group install" \
+	  "test pyproject.toml --extra lab --extra course --group install --group lite --group test"; do \
 	  set -- $$purpose; name=$$1; shift; uv pip compile "$$@" $(LOCKED) -c requirements/union.txt \
 	    -o requirements/$$name.lock || exit 1; done
 	@echo uv | uv pip compile - $(LOCKED) -o requirements/uv.lock

@@ -45,6 +45,7 @@ MAY_IMPORT = {
     "drawing": {"exact", "graphs", "skeletons", "polyballs"},
     "figures": BELOW_DRAWING | {"drawing"},
     "explore": BELOW_DRAWING | {"drawing", "pipeline"},
+    "coursework": {""},
 }
 # Where matplotlib and widgets may be imported; everything else of the library is mathematics.
 OUTSIDE = {
