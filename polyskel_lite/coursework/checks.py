@@ -30,6 +30,8 @@ import polyskel_lite as psl
 #: Answers may be off by this much of the input's size: single precision passes, a wrong formula does not.
 TOLERANCE = 1e-6
 SECRET = "POLYSKEL_COURSE_SECRET"
+#: A number by which all time limits are multiplied, for slow machines (and for tests, which do not wait).
+PATIENCE = "POLYSKEL_COURSE_PATIENCE"
 
 
 class Wrong(AssertionError):
@@ -184,6 +186,18 @@ def secret_rng(assignment: str, default: int) -> np.random.Generator:
     return np.random.default_rng(int.from_bytes(digest, "big") if secret else default)
 
 
+def answer(name: str) -> Any:
+    """A copy of the notebook's variable of this name, or the sentence that there is none.
+
+    >>> polygon = [(0, 0), (1, 0), (0, 1)]
+    >>> answer("polygon")
+    [(0, 0), (1, 0), (0, 1)]
+    """
+    names = sys._getframe(1).f_globals
+    need(name in names, f"there is no variable `{name}`. Is its cell written and run?")
+    return copy.deepcopy(names[name])
+
+
 def guarded(name: str, seconds: float = 10, library: bool = True) -> Callable[..., Any]:
     """The notebook's function of this name, called with copies, in limited time, with a sentence for errors.
 
@@ -206,12 +220,14 @@ def guarded(name: str, seconds: float = 10, library: bool = True) -> Callable[..
         used = sorted(set(_of_the_library(function)))
         need(not used, f"{name} uses {', '.join(used)} of the library. Write it yourself, with NumPy.")
 
+    seconds *= float(os.environ.get(PATIENCE, 1))
+    alone = contextlib.nullcontext if library else _without_library
+
     def call(*args: Any) -> Any:
         copies = copy.deepcopy(args)
         try:
-            with _limit(seconds), contextlib.redirect_stderr(io.StringIO()):
-                with contextlib.nullcontext() if library else _without_library():
-                    return function(*copies)
+            with _limit(seconds), contextlib.redirect_stderr(io.StringIO()), alone():
+                return function(*copies)
         except _TooLong:
             sentence = f"was not ready after {seconds:g} seconds. Is there a loop that never ends?"
         except NotImplementedError:
@@ -221,6 +237,29 @@ def guarded(name: str, seconds: float = 10, library: bool = True) -> Callable[..
         raise Wrong(f"{name} {sentence}")
 
     return call
+
+
+def score(*parts: tuple[float, Callable[[], None]]) -> float:
+    """Points of a check in parts: each is a number of points and a function that may raise `Wrong`.
+
+    As the last line of a check cell it gives part of the points; what is wrong is printed.
+
+    >>> def right():
+    ...     need(True, "")
+    >>> def wrong():
+    ...     need(False, "the radius is squared.")
+    >>> score((2, right), (1, wrong))
+    Not yet (1 point): the radius is squared.
+    2
+    """
+    total: float = 0
+    for points, part in parts:
+        try:
+            part()
+            total += points
+        except Wrong as error:
+            print(f"Not yet ({points} point{'s' if points != 1 else ''}): {error}")
+    return total
 
 
 def _of_the_library(function: Any) -> Iterator[str]:

@@ -1,0 +1,30 @@
+"""Every submission gets the marks it should get: right ones all, and one mistake costs its own task only."""
+
+import course
+import pytest
+from marking import marked
+from truth.submissions import SOURCES, SUBMISSIONS
+
+
+@pytest.fixture(autouse=True)
+def in_a_hurry(monkeypatch):
+    monkeypatch.setenv("POLYSKEL_COURSE_PATIENCE", "0.3")
+
+
+@pytest.mark.parametrize("name", SOURCES)
+def test_a_source_has_full_marks(name, monkeypatch):
+    monkeypatch.setenv("POLYSKEL_COURSE_SECRET", "another group")
+    found = marked(SOURCES[name])
+    assert [mark for mark in found.marks if mark.points < mark.most] == []
+    assert found.taken == []
+
+
+@pytest.mark.parametrize("told", SUBMISSIONS, ids=lambda told: f"{told.assignment} {told.about['name']}")
+def test_a_submission_gets_its_marks(told):
+    found = marked(course.collected(SOURCES[told.assignment], told.notebook))
+    lost = {mark.name: mark.most - mark.points for mark in found.marks if mark.points < mark.most}
+    said = {mark.name: mark.message for mark in found.marks}
+    assert lost == told.about.get("lost", {}), said
+    assert found.taken == told.about.get("taken", [])
+    for name, words in told.about.get("says", {}).items():
+        assert words in said[name]
