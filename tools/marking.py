@@ -86,7 +86,7 @@ def _run(sources: list[str], seconds: float) -> tuple[list[tuple[float | None, s
     # Forked from one process that has imported the library: quicker than a new Python, and as clean.
     kinds = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("forkserver" if "forkserver" in kinds else "spawn")
-    context.set_forkserver_preload(["IPython.core.interactiveshell", "polyskel_lite.coursework"])
+    context.set_forkserver_preload(["IPython.core.interactiveshell", "nbformat", "polyskel_lite.coursework"])
     here, there = context.Pipe(duplex=False)
     environment = {
         "MPLBACKEND": "Agg",
