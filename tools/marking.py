@@ -96,6 +96,8 @@ def _run(sources: list[str], seconds: float) -> tuple[list[tuple[float | None, s
     child.start()
     there.close()
     said = []
+    if not here.poll(4 * CELL_SECONDS) or here.recv() != "begun":  # no fault of the notebook
+        raise RuntimeError("the process that should run the cells did not begin")
     with contextlib.suppress(EOFError), here:
         while len(said) < len(sources) and here.poll(seconds):
             said.append(here.recv())

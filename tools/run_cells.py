@@ -16,7 +16,8 @@ MEMORY = 6 * 2**30
 
 
 def run_cells(sources: list[str], environment: dict[str, str], report: Connection) -> None:
-    """Send ``(points, message)`` for each cell, where None is all points that the cell has."""
+    """Send that it has begun, then ``(points, message)`` for each cell; None is all points the cell has."""
+    report.send("begun")
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 

@@ -20,7 +20,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from types import CodeType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -89,6 +89,8 @@ def numbers(value: Any, shape: tuple[int | None, ...], name: str) -> np.ndarray:
     except (TypeError, ValueError):
         ok = False
     need(ok, f"{name} should be numbers of the shape {_written(shape)}, and is {_short(value)}.")
+    if array.size == 0 and None in shape:  # no rows have no columns
+        array = array.reshape([n or 0 for n in shape])
     fits = len(shape) == array.ndim and all(n in (None, m) for n, m in zip(shape, array.shape, strict=True))
     need(fits, f"{name} should have the shape {_written(shape)}; yours has the shape {array.shape}.")
     need(np.isfinite(array).all(), f"{name} has a value that is not finite. Did you divide by zero?")
@@ -198,11 +200,12 @@ def answer(name: str) -> Any:
     return copy.deepcopy(names[name])
 
 
-def guarded(name: str, seconds: float = 10, library: bool = True) -> Callable[..., Any]:
+def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = True) -> Callable[..., Any]:
     """The notebook's function of this name, called with copies, in limited time, with a sentence for errors.
 
-    With ``library=False`` it may not call `polyskel_lite`. That is a hint to who has misread the task: who
-    wants to can get round it. What a call writes on stderr is dropped: a gradebook takes it for an error.
+    With ``library=False`` it may not call `polyskel_lite`, with names only these functions of it. That is a
+    hint to who has misread the task: who wants to can get round it. What a call writes on stderr is dropped:
+    a gradebook takes it for an error.
 
     >>> def double(numbers):
     ...     numbers.extend(numbers)
@@ -216,17 +219,21 @@ def guarded(name: str, seconds: float = 10, library: bool = True) -> Callable[..
     """
     function = sys._getframe(1).f_globals.get(name)
     need(callable(function), f"there is no function `{name}`. Is its cell run?")
-    if not library:
+    if library is False:
         used = sorted(set(_of_the_library(function)))
         need(not used, f"{name} uses {', '.join(used)} of the library. Write it yourself, with NumPy.")
 
     seconds *= float(os.environ.get(PATIENCE, 1))
-    alone = contextlib.nullcontext if library else _without_library
+    allowed = set(psl.__all__ if library is True else library or ())
 
     def call(*args: Any) -> Any:
         copies = copy.deepcopy(args)
         try:
-            with _limit(seconds), contextlib.redirect_stderr(io.StringIO()), alone():
+            with (
+                _limit(seconds),
+                contextlib.redirect_stderr(io.StringIO()),
+                _library_without(set(psl.__all__) - allowed),
+            ):
                 return function(*copies)
         except _TooLong:
             sentence = f"was not ready after {seconds:g} seconds. Is there a loop that never ends?"
@@ -278,13 +285,13 @@ def _of_the_library(function: Any) -> Iterator[str]:
 
 
 @contextlib.contextmanager
-def _without_library() -> Iterator[None]:
-    """The names of the front door refuse to be called: for what the code does not show, as getattr."""
+def _library_without(names: set[str]) -> Iterator[None]:
+    """Functions of the front door refuse to be called: for what the code does not show, as getattr."""
 
     def refuse(*_: Any, **__: Any) -> None:
-        raise Wrong("it calls the library. Write it yourself, with NumPy.")
+        raise Wrong("it calls what it should do of the library. Write it yourself, with NumPy.")
 
-    kept = {name: getattr(psl, name) for name in psl.__all__ if callable(getattr(psl, name))}
+    kept = {name: getattr(psl, name) for name in names if isinstance(getattr(psl, name), FunctionType)}
     vars(psl).update(dict.fromkeys(kept, refuse))
     try:
         yield
