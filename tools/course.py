@@ -24,6 +24,8 @@ COURSE = ROOT / "_course"
 STUBS = {"code": "# YOUR CODE HERE\nraise NotImplementedError()", "markdown": "YOUR ANSWER HERE"}
 MARK = re.compile(r"\s*#+ (BEGIN|END) (SOLUTION|HIDDEN TESTS)\s*")
 
+INSTALLS = re.compile(r"\s*([%!] *pip\b|$)")  # what the browser needs is here when a submission is marked
+
 
 def sources() -> dict[str, Path]:
     """Every assignment's source by its short name: a1, a2 ..."""
@@ -105,7 +107,7 @@ def collected(source: NotebookNode, submission: NotebookNode) -> NotebookNode:
         if name in ours:
             place = name
             answers.setdefault(name, []).append(cell.source)
-        elif cell.cell_type == "code" and cell.source.strip():
+        elif cell.cell_type == "code" and not INSTALLS.match(cell.source):
             kept = nbformat.v4.new_code_cell(cell.source)
             added.setdefault(place, []).append(kept)
     notebook = copy.deepcopy(source)
@@ -127,32 +129,42 @@ def secret(given: str = "", folder: Path = COURSE) -> str:
     return secret(folder=folder)
 
 
-def main() -> None:
+def write(name: str, to: Path) -> str:
+    """Write an assignment's release and the teacher's copy, unless its own solution fails a check."""
     from marking import marked
 
-    parser = argparse.ArgumentParser(description=__doc__)
+    path = sources()[name]
+    source = read(path)
+    marks = marked(source).marks
+    for mark in marks:
+        if mark.points < mark.most:
+            raise ValueError(f"{path.name}: its own solution fails {mark.name}: {mark.message}")
+    for kind, notebook in (("release", released(source)), ("instructor", source)):
+        target = to / kind / name / path.name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        nbformat.write(notebook, target)
+    hand = sum(role(cell)["points"] for cell in source.cells if by_hand(cell))
+    return f"{path.name}: {sum(mark.most for mark in marks):g} points by machine, {hand:g} by hand"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--assignment", default="", help="one of them, as a2; without it all")
     parser.add_argument(
-        "--secret", default="", help="seeds the hidden tests; without it the last one, or a new one"
+        "--secret", default="", help="seeds hidden tests; without it the last one, or a new one"
     )
     parser.add_argument("--to", type=Path, default=COURSE)
     given = parser.parse_args()
     os.environ["POLYSKEL_COURSE_SECRET"] = secret(given.secret, given.to)
-    wanted = {name: path for name, path in sources().items() if given.assignment in ("", name)}
+    wanted = [name for name in sources() if given.assignment in ("", name)]
     if not wanted:
         sys.exit(f"There is no assignment {given.assignment!r}; there are {', '.join(sources())}.")
-    for name, path in wanted.items():
-        source = read(path)
-        for mark in (marks := marked(source).marks):
-            if mark.points < mark.most:
-                sys.exit(f"{path.name} is not released: its own solution fails {mark.name}: {mark.message}")
-        for kind, notebook in (("release", released(source)), ("instructor", source)):
-            target = given.to / kind / name / path.name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            nbformat.write(notebook, target)
-        hand = sum(role(cell)["points"] for cell in source.cells if by_hand(cell))
-        print(f"{name}: {sum(m.most for m in marks):g} points by machine, {hand:g} by hand")
-    print(f"For students: {given.to / 'release'}\nFor you: {given.to / 'instructor'}")
+    for name in wanted:
+        try:
+            print(write(name, given.to), flush=True)
+        except ValueError as error:
+            sys.exit(f"Not released. {error}")
+    print(f"For students: {given.to / 'release'}\nFor you, with solutions: {given.to / 'instructor'}")
 
 
 if __name__ == "__main__":

@@ -19,6 +19,16 @@ def test_a_source_has_full_marks(name, monkeypatch):
     assert found.taken == []
 
 
+def test_a_source_that_fails_its_own_checks_is_not_released(tmp_path, monkeypatch):
+    broken = course.copy.deepcopy(SOURCES["a2"])
+    cell = next(cell for cell in broken.cells if course.grade_id(cell) == "a2-gabriel")
+    cell.source = cell.source.replace("<= 0", "< 0")
+    monkeypatch.setattr(course, "read", lambda path: broken)
+    with pytest.raises(ValueError, match=r"own solution fails a2-gabriel-border: .*ON the circle"):
+        course.write("a2", tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("told", SUBMISSIONS, ids=lambda told: f"{told.assignment} {told.about['name']}")
 def test_a_submission_gets_its_marks(told):
     found = marked(course.collected(SOURCES[told.assignment], told.notebook))
