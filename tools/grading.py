@@ -25,6 +25,7 @@ from typing import NamedTuple
 import nbformat
 from course import COURSE, ROOT, collected, grade_id, read, secret, sources
 from marking import Marked, marked
+from run_cells import limit_memory
 
 
 class Submission(NamedTuple):
@@ -199,6 +200,7 @@ def main() -> None:
     given = parser.parse_args()
     if given.folder and not given.folder.is_dir():
         sys.exit(f"There is no folder {given.folder}.")
+    limit_memory()
     for row in grade(given.folder, given.to):
         print(*row.values(), sep="\t")
     print(f"Marks: {given.to / 'grades.csv'}. What you have to look at: {given.to / 'by_hand.csv'}.")

@@ -15,13 +15,18 @@ from traitlets.config import Config
 MEMORY = 6 * 2**30
 
 
-def run_cells(sources: list[str], environment: dict[str, str], report: Connection) -> None:
-    """Send that it has begun, then ``(points, message)`` for each cell; None is all points the cell has."""
-    report.send("begun")
+def limit_memory() -> None:
+    """For this process and all that it starts, where the system can."""
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def run_cells(sources: list[str], environment: dict[str, str], report: Connection) -> None:
+    """Send that it has begun, then ``(points, message)`` for each cell; None is all points the cell has."""
+    report.send("begun")
+    limit_memory()
     for stream in (1, 2):  # what does not go through sys.stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
     os.environ.update(environment)

@@ -41,6 +41,14 @@ class Wrong(AssertionError):
         return [f"Not yet. {self}"]
 
 
+class _Short(io.StringIO):
+    """Keeps the first characters of what is printed, and drops the rest: loops that never end print a lot."""
+
+    def write(self, text: str) -> int:
+        super().write(text[: max(0, 5000 - self.tell())])
+        return len(text)
+
+
 class _TooLong(BaseException):
     """Raised in a function whose time is over; no Exception, so that `except Exception` does not catch it."""
 
@@ -227,12 +235,13 @@ def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = Tr
     allowed = set(psl.__all__ if library is True else library or ())
 
     def call(*args: Any) -> Any:
-        copies = copy.deepcopy(args)
+        copies, printed = copy.deepcopy(args), _Short()
         try:
             with (
-                _limit(seconds),
+                contextlib.redirect_stdout(printed),
                 contextlib.redirect_stderr(io.StringIO()),
                 _library_without(set(psl.__all__) - allowed),
+                _limit(seconds),
             ):
                 return function(*copies)
         except _TooLong:
@@ -241,6 +250,8 @@ def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = Tr
             sentence = "is not written yet."
         except (Exception, SystemExit) as error:
             sentence = f"stopped with {type(error).__name__}: {error}"
+        finally:
+            print(printed.getvalue(), end="")
         raise Wrong(f"{name} {sentence}")
 
     return call

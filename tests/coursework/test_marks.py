@@ -6,11 +6,6 @@ from marking import marked
 from truth.submissions import SOURCES, SUBMISSIONS
 
 
-@pytest.fixture(autouse=True)
-def in_a_hurry(monkeypatch):
-    monkeypatch.setenv("POLYSKEL_COURSE_PATIENCE", "0.3")
-
-
 @pytest.mark.parametrize("name", SOURCES)
 def test_a_source_has_full_marks(name, monkeypatch):
     monkeypatch.setenv("POLYSKEL_COURSE_SECRET", "another group")
@@ -30,7 +25,9 @@ def test_a_source_that_fails_its_own_checks_is_not_released(tmp_path, monkeypatc
 
 
 @pytest.mark.parametrize("told", SUBMISSIONS, ids=lambda told: f"{told.assignment} {told.about['name']}")
-def test_a_submission_gets_its_marks(told):
+def test_a_submission_gets_its_marks(told, monkeypatch):
+    if any("never ends" in words for words in told.about.get("says", {}).values()):
+        monkeypatch.setenv("POLYSKEL_COURSE_PATIENCE", "0.3")
     found = marked(course.collected(SOURCES[told.assignment], told.notebook))
     lost = {mark.name: mark.most - mark.points for mark in found.marks if mark.points < mark.most}
     said = {mark.name: mark.message for mark in found.marks}

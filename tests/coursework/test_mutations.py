@@ -73,7 +73,7 @@ def changed(text: str) -> Iterator[tuple[str, str]]:
 
 @pytest.fixture(autouse=True)
 def in_a_hurry(monkeypatch):
-    monkeypatch.setenv("POLYSKEL_COURSE_PATIENCE", "0.2")
+    monkeypatch.setenv("POLYSKEL_COURSE_PATIENCE", "0.3")
 
 
 @each_answer

@@ -10,7 +10,7 @@ from truth.submissions import SOURCES, SUBMISSIONS
 
 pytestmark = pytest.mark.slow
 ASSIGNMENTS = list(SOURCES)[:2]
-WRONG = ("untouched", "ends Python", "tampering", "one number of two")
+WRONG = ("untouched", "ends Python", "tampering", "one number of two", "prints and eats")
 
 
 @pytest.fixture(scope="module")
