@@ -167,6 +167,9 @@ def grade(folder: Path | None, to: Path) -> list[dict]:
         for cell in own[student, assignment].taken if (student, assignment) in own else ():
             look_at(student, assignment, f"{cell} ended Python or did not end, and was left out")
     rows = list(book.grades())
+    for student, assignment in dict.fromkeys((row["student"], row["assignment"]) for row in rows):
+        if folder is None:  # marks have been given by hand since
+            book.feedback(student, assignment, to / "feedback" / student)
     points = {(row["student"], row["assignment"], row["task"]): row["points"] for row in rows}
     for (student, assignment), found in own.items():
         for mark in found.marks:
@@ -195,7 +198,9 @@ def grade(folder: Path | None, to: Path) -> list[dict]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=Path, nargs="?", help="without it, only the tables are written again")
+    parser.add_argument(
+        "folder", type=Path, nargs="?", help="without it, tables and feedback are written again"
+    )
     parser.add_argument("--to", type=Path, default=COURSE)
     given = parser.parse_args()
     if given.folder and not given.folder.is_dir():

@@ -18,6 +18,7 @@ import io
 import os
 import signal
 import sys
+import textwrap
 import threading
 from collections.abc import Callable, Iterator
 from types import CodeType, FunctionType, ModuleType
@@ -38,7 +39,7 @@ class Wrong(AssertionError):
     """An answer that is not right yet; a notebook shows the sentence alone, and no traceback."""
 
     def _render_traceback_(self) -> list[str]:
-        return [f"Not yet. {self}"]
+        return textwrap.wrap(f"Not yet: {self}", 100)  # feedback pages do not break lines
 
 
 class _Short(io.StringIO):
