@@ -14,13 +14,13 @@ BUILT  := _build/html/.built
 AS_ROOT = $(if $(filter 0,$(shell id -u)),--allow-root) # in a container, as a rule
 
 .DEFAULT_GOAL := help
-.PHONY: help book test lint unit chapters browser lab lite figures bench fuzz run lock clean
+.PHONY: help book test lint unit chapters browser course grade course-test lab lite figures bench fuzz run lock clean
 
 help:  ## list the commands
-	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-9s %s\n", $$1, $$2 }'
+	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:[^#]*## */|/' | awk -F'|' '{ printf "  make %-11s %s\n", $$1, $$2 }'
 
 # One environment; the packages of a lock come when a command needs them, and again when the lock changes.
-LOCKS := $(VENV)/.book $(VENV)/.lab $(VENV)/.test $(VENV)/.lite
+LOCKS := $(VENV)/.book $(VENV)/.lab $(VENV)/.test $(VENV)/.lite $(VENV)/.course
 $(LOCKS): $(VENV)/.%: requirements/%.lock
 	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
 	  echo "polyskel_lite needs Python 3.11 or newer; '$(PYTHON)' is $$("$(PYTHON)" -V 2>/dev/null || echo not there)." \
@@ -59,6 +59,16 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 	@echo "Pages, viewer and explorers in Chromium ..."
 	@BOOK="$(CURDIR)/_build/html" $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup tests/browser
 
+course: $(VENV)/.course  ## write the assignments for students and for you to _course/; ASSIGNMENT=a2, SECRET=word
+	@$(BIN)/python tools/course.py --assignment "$(ASSIGNMENT)" --secret "$(SECRET)"
+
+# It runs strangers' code, and nothing keeps that in: see tools/grading.py.
+grade: $(VENV)/.course  ## mark the submissions in a folder, FROM=folder: in a container or a throw-away account
+	@$(BIN)/python tools/grading.py $(if $(FROM),"$(FROM)")
+
+course-test: $(VENV)/.test  ## mark right, wrong and hostile submissions through nbgrader (two minutes)
+	@$(BIN)/python -m pytest -m slow tests/coursework
+
 lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
 	@$(BIN)/python tools/working_copies.py _build/lab
 	@$(BIN)/jupyter trust _build/lab/notebooks/*.ipynb >/dev/null # or pictures of lines are not shown
@@ -85,11 +95,12 @@ run: $(VENV)/.lab  ## maintainers: run every notebook and store its outputs
 	@env -u MPLBACKEND $(BIN)/python tools/run_notebooks.py
 
 lock:  ## maintainers: resolve pyproject.toml anew into requirements/*.lock (needs uv)
-	@uv pip compile pyproject.toml --extra lab --group install --group book --group lite --group test $(LOCKED) \
+	@uv pip compile pyproject.toml --extra lab --extra course --group install --group book --group lite --group test $(LOCKED) \
 	  -o requirements/union.txt
 	@for purpose in "book --group book" "lab pyproject.toml --extra lab --group install" \
 	  "lite pyproject.toml --extra graph --group install --group lite" \
-	  "test pyproject.toml --extra lab --group install --group lite --group test"; do \
+	  "course pyproject.toml --extra lab --extra course --group install" \
+	  "test pyproject.toml --extra lab --extra course --group install --group lite --group test"; do \
 	  set -- $$purpose; name=$$1; shift; uv pip compile "$$@" $(LOCKED) -c requirements/union.txt \
 	    -o requirements/$$name.lock || exit 1; done
 	@echo uv | uv pip compile - $(LOCKED) -o requirements/uv.lock

@@ -46,6 +46,7 @@ MAY_IMPORT = {
     "figures": BELOW_DRAWING | {"drawing"},
     "explore": BELOW_DRAWING | {"drawing", "pipeline"},
     "cli": BELOW_DRAWING | {"drawing", "pipeline", "figures", "explore"},
+    "coursework": {""},
 }
 # Where matplotlib and widgets may be imported; everything else of the library is mathematics.
 OUTSIDE = {

@@ -9,6 +9,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+import course
 import nbformat
 import pytest
 from packaging.requirements import Requirement
@@ -76,6 +77,18 @@ for found in pkgutil.walk_packages(polyskel_lite.__path__, "polyskel_lite."):
             runner.run(test)
             tried += bool(test.examples)
 print("found " + json.dumps({"tried": tried, "missing": runner.missing, "broken": sorted(broken)}))
+"""
+
+# A student's notebook, its code cells one after the other; a check that is not passed stops it.
+RELEASE = """
+import json
+names = {"__name__": "__main__"}
+for cell in json.loads(%r):
+    exec(cell, names)
+try:
+    exec("def is_gabriel(E, i, j): return None\\n" + %r, names)
+except AssertionError as error:
+    print("found " + json.dumps(str(error)))
 """
 
 # A browser has none of these, and no threads or processes.
@@ -164,6 +177,18 @@ def test_library_finds_the_same_in_pyodide(native, in_pyodide):
     assert browser.pop("integer") == 4
     assert native["integer"] == 8
     assert browser == {name: value for name, value in native.items() if name != "integer"}
+
+
+def test_a_release_with_its_answers_passes_its_checks_in_pyodide(in_pyodide):
+    source = course.read(course.sources()["a2"])
+    cells = {
+        course.grade_id(cell): cell.source for cell in course.released(source).cells if course.role(cell)
+    }
+    answers = {course.grade_id(cell): cell.source for cell in source.cells if course.is_answer(cell)}
+    code = [text for name, text in (cells | answers).items() if not name.endswith(("-proof", "-explain"))]
+    assert len(code) == 12
+    said = in_pyodide(RELEASE % (json.dumps(code), cells["a2-gabriel-check"]))
+    assert said == "is_gabriel is None. Is there a `return` at the end?"
 
 
 def test_pyodide_has_what_the_library_requires():

@@ -30,14 +30,17 @@ def packages(requirements: list[str]) -> dict[str, str]:
 
 def wanted(name: str = "") -> dict[str, str]:
     """What the environment of one lock holds; of all together the library, every extra and group but dev."""
+    extras = {extra: lines for extra, lines in EXTRAS.items() if extra != "course"}
     library = [
         *PROJECT["dependencies"],
-        *(line for extra in EXTRAS.values() for line in extra),
+        *(line for lines in extras.values() for line in lines),
         *GROUPS["install"],
     ]
-    test = [*library, *GROUPS["lite"], *GROUPS["test"]]
+    course = [*library, *EXTRAS["course"]]
+    test = [*course, *GROUPS["lite"], *GROUPS["test"]]
     lite = [*PROJECT["dependencies"], *EXTRAS["graph"], *GROUPS["install"], *GROUPS["lite"]]
-    lines = {"book": GROUPS["book"], "lab": library, "lite": lite, "test": test, "uv": ["uv"], "browser": []}
+    lines = {"book": GROUPS["book"], "lab": library, "lite": lite, "course": course, "test": test}
+    lines |= {"uv": ["uv"], "browser": []}
     return packages(lines[name] if name else [*test, *GROUPS["book"]])
 
 
