@@ -152,7 +152,7 @@ def pairs(value: Any, name: str) -> set[tuple[int, int]]:
     >>> sorted(pairs([(1, 0), (1, 2)], "edges"))
     [(0, 1), (1, 2)]
     """
-    return _rows(value, 2, name)
+    return {(a, b) for a, b in _rows(value, 2, name)}
 
 
 def _rows(value: Any, length: int, name: str) -> set[tuple[int, ...]]:
@@ -226,7 +226,7 @@ def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = Tr
     Traceback (most recent call last):
     polyskel_lite.coursework.checks.Wrong: there is no function `triple`. Is its cell run?
     """
-    function = sys._getframe(1).f_globals.get(name)
+    function: Any = sys._getframe(1).f_globals.get(name)
     need(callable(function), f"there is no function `{name}`. Is its cell run?")
     if library is False:
         used = sorted(set(_of_the_library(function)))

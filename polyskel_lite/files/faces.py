@@ -65,7 +65,7 @@ def triangles(points: np.ndarray, faces: Sequence) -> np.ndarray:
     sizes, parts, owners = np.array([len(face) for face in faces], dtype=int), [], []
     for size in np.unique(sizes[sizes > 2]):
         owner = np.flatnonzero(sizes == size)
-        block = np.array([faces[k] for k in owner], dtype=np.int64)
+        block = np.array([faces[k] for k in owner.tolist()], dtype=np.int64)
         fan = np.stack([np.repeat(block[:, :1], size - 2, axis=1), block[:, 1:-1], block[:, 2:]], axis=2)
         if size > 3:
             corners = points[block]

@@ -118,7 +118,7 @@ def _contours(values: np.ndarray, level: float) -> list[np.ndarray]:
     from contourpy import LineType, contour_generator
 
     generator = contour_generator(z=values, name="serial", line_type=LineType.Separate)
-    return [line[:-1] for line in generator.lines(level)]
+    return [np.asarray(line)[:-1] for line in generator.lines(level)]
 
 
 def picture_rings(path: Path, level: float, smooth: float, invert) -> list[np.ndarray]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from .shape import Shape
 
 
 def mend(
-    boundary,
+    boundary: Any,
     *,
     tolerance: float | None = None,
     width: float | None = None,

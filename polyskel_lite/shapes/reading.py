@@ -59,8 +59,8 @@ def mended(kind: str, arrays: tuple, tolerance=None, width=None, largest=False, 
     ('rings', 4, {'rings': 1, 'outlines': 1})
     """
     if kind in ("mesh", "facets") and arrays[0].shape[1] == 3:
-        *arrays, report = mended_mesh(*arrays, tolerance, largest, least)
-        return "mesh", tuple(arrays), report
+        points, faces, report = mended_mesh(arrays[0], arrays[1], tolerance, largest, least)
+        return "mesh", (points, faces), report
     if kind == "facets":
         return kind, arrays, {}
     areas = [cleaned(*arrays)] if kind == "rings" else arrays[0]
