@@ -50,8 +50,13 @@ def main() -> int:
     parser.add_argument("names", nargs="*", help="chapters without .ipynb; all when none is named")
     parser.add_argument("--timeout", type=int, default=600, help="seconds that one cell may take")
     options = parser.parse_args()
-    paths = [NOTEBOOKS / f"{Path(name).stem}.ipynb" for name in options.names]
-    for path in paths or sorted(NOTEBOOKS.glob("*.ipynb")):
+    pages = sorted([*NOTEBOOKS.glob("*.ipynb"), *NOTEBOOKS.glob("course/[!a]*.ipynb")])  # no assignments
+    stems = {Path(name).stem for name in options.names}
+    if unknown := stems - {path.stem for path in pages}:
+        parser.error(f"no chapters of these names: {', '.join(sorted(unknown))}")
+    for path in pages:
+        if stems and path.stem not in stems:
+            continue
         start = time.perf_counter()
         print(f"{path.name} ... ", end="", flush=True)
         run(path, options.timeout)

@@ -43,7 +43,7 @@ def small_book(folder: Path, settings: str) -> dict[str, Links]:
     notebooks = folder / "notebooks"
     notebooks.mkdir()
     for path in (ROOT / "notebooks").iterdir():
-        if path.suffix not in (".ipynb", ".md"):
+        if path.suffix not in (".ipynb", ".md") and path.name != "course":
             (notebooks / path.name).symlink_to(path)
     (notebooks / "conf.py").unlink()
     (notebooks / "conf.py").write_text((ROOT / "notebooks" / "conf.py").read_text(encoding="utf-8"))
