@@ -298,7 +298,7 @@ def axes(
     >>> plt.close(fig)
     """
     height = 0.75 * width / ncols * nrows if height is None else height
-    over = 0.22 if letters else 0.04  # inches, for a letter
+    over = 0.24 if letters else 0.04  # inches, for a letter
     # On a narrower page panels are smaller, but a line of letters is not.
     share = page_share() * ((height - under) / nrows - over) + over
     under *= 1.4 if page_share() < 0.7 else 1.0  # where a legend may be in two lines

@@ -50,7 +50,8 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
             _check(sum(member.file_size for member in members) <= MOST_BYTES, f"over {MOST_BYTES:,} bytes")
             return {member.filename.removesuffix(".npy"): _read(archive, member) for member in members}
     except Exception as error:  # zipfile and numpy raise whatever a broken file makes them stumble over
-        raise InputError(f"not a file of arrays of numbers ({error}); save it with numpy.savez.") from error
+        what = error.strerror if isinstance(error, OSError) and error.strerror else error  # without the path
+        raise InputError(f"not a file of arrays of numbers ({what}); save it with numpy.savez.") from error
 
 
 def _read(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:

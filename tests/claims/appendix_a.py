@@ -6,7 +6,7 @@ Maximal balls are grown, and distances measured, by `truth.medial`, which knows 
 from __future__ import annotations
 
 from functools import cache
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import comb
 
 import numpy as np
@@ -258,11 +258,13 @@ def figure_of_space():
 
 
 def _six_skeletons(figure, panels) -> bool:
-    """The polygons of each skeleton, and where it has none its segments, are all drawn."""
+    """The polygons of each skeleton, filled or by their sides, and where it has none its segments."""
     for ax, Y in zip(panels, figures.examples_12(), strict=False):
         skeleton = Y.skeleton()
         if len(skeleton.polygons):
-            if len(skeleton.polygons) not in faces(ax):
+            corners = (skeleton.vertices[[*polygon, polygon[0]]] for polygon in skeleton.polygons)
+            outlined = sum(pieces(pairwise(ring)) <= lines(ax) for ring in corners)
+            if len(skeleton.polygons) not in {outlined + filled for filled in faces(ax)}:
                 return False
         elif not pieces(skeleton.segments()) <= lines(ax):
             return False

@@ -126,7 +126,7 @@ BAD = {
     "text.png": b"no picture at all",
     "white.png": None,
     "broken.svg": b"<svg><path d='M0 0",
-    "open.svg": b'<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V4"/></svg>',
+    "open.svg": b'<svg xmlns="http://www.w3.org/2000/svg"><path fill="none" d="M0 0H9V4"/></svg>',
     "bow.geojson": b'{"type":"Polygon","coordinates":[[[0,0],[2,2],[2,0],[0,2],[0,0]]]}',
     "line.geojson": b'{"type":"LineString","coordinates":[[0,0],[2,2]]}',
     "broken.json": b"{",

@@ -59,7 +59,7 @@ class Runner(doctest.DocTestRunner):
     missing = 0
 
     def report_unexpected_exception(self, out, test, example, info):
-        if "pip install " in str(info[1]):
+        if "pip install " in str(info[1]) or info[0] is ModuleNotFoundError:
             self.missing += 1
         else:
             super().report_unexpected_exception(out, test, example, info)
