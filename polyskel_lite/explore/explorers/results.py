@@ -36,7 +36,7 @@ def branch_table(rows: list[Branch], caption: str = "Branches, the longest first
     if len(rows) > ROWS_SHOWN:
         caption += f" ({ROWS_SHOWN} of {len(rows)})"
     caption += "; the CSV file has all numbers of all branches"
-    heads = ["no.", "from", "to", "smooth length", "mean width", "least width"]
+    heads = ["row", "from", "to", "smooth length", "mean width", "least width"]
     lines = [f'<table style="border-collapse:collapse"><caption>{html.escape(caption)}</caption><thead><tr>']
     lines += [f'<th scope="col" style="{_CELL}">{head}</th>' for head in heads]
     lines.append("</tr></thead><tbody>")
