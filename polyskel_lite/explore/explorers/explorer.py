@@ -20,8 +20,8 @@ from ..toys import as_script
 
 #: What the stored page says where the controls would be.
 NEEDS_KERNEL = (
-    "The controls of this picture need a running Python: open this chapter in JupyterLab "
-    "(<code>make lab</code>, or a launch button of this page) and run its cells."
+    "To use its controls with shapes of yours, open this notebook in JupyterLab (<code>make lab</code>) "
+    "and run its cells."
 )
 #: The same where the page has JavaScript that moves the picture.
 NEEDS_SCRIPT = (

@@ -18,11 +18,13 @@ if TYPE_CHECKING:
 
 #: A page shows so many branches, the longest ones; the CSV file has them all.
 ROWS_SHOWN = 40
-_CELL = "padding:0.1em 0.7em;text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums"
+_CELL = "padding:0.1em 0.4em;text-align:right;font-variant-numeric:tabular-nums"
 
 
 def branch_table(rows: list[Branch], caption: str = "Branches, the longest first") -> str:
-    """Write branches as an HTML table with headers that a screen reader can follow.
+    """Write branches as an HTML table with headers that a screen reader can follow, as wide as a phone.
+
+    The smoothed length and widths are what to report; the CSV file has the other numbers.
 
     Examples
     --------
@@ -31,17 +33,15 @@ def branch_table(rows: list[Branch], caption: str = "Branches, the longest first
     """
     if not rows:
         return "<p>No branches: at this threshold the skeleton is made of points and sheets.</p>"
-    left_out = len(rows) - ROWS_SHOWN
-    if left_out > 0:
-        caption += f" ({ROWS_SHOWN} of {len(rows)}; the CSV file has all of them)"
-    heads = ["number", "from", "to", "length", "smoothed", "mean radius", "mean width"]
-    heads += ["least radius", "largest radius"]
+    if len(rows) > ROWS_SHOWN:
+        caption += f" ({ROWS_SHOWN} of {len(rows)})"
+    caption += "; the CSV file has all numbers of all branches"
+    heads = ["row", "from", "to", "smooth length", "mean width", "least width"]
     lines = [f'<table style="border-collapse:collapse"><caption>{html.escape(caption)}</caption><thead><tr>']
     lines += [f'<th scope="col" style="{_CELL}">{head}</th>' for head in heads]
     lines.append("</tr></thead><tbody>")
     for number, row in enumerate(rows[:ROWS_SHOWN], start=1):
-        numbers = [row.length, row.smooth_length, row.mean_radius, 2 * row.mean_radius]
-        numbers += [row.least_radius, row.largest_radius]
+        numbers = [row.smooth_length, 2 * row.mean_radius, 2 * row.least_radius]
         cells = [row.start, row.end, *(f"{value:.4g}" for value in numbers)]
         lines.append(f'<tr><th scope="row" style="{_CELL}">{number}</th>')
         lines += [f'<td style="{_CELL}">{html.escape(cell)}</td>' for cell in cells]
