@@ -25,6 +25,10 @@ def test_table_follows_the_threshold_and_is_for_screen_readers():
         assert f"{threshold / np.pi:.3g} π" in table.find("caption").text
         assert all(head.get("scope") == "col" for head in table.findall("thead/tr/th"))
         assert all(row.find("th").get("scope") == "row" for row in rows)
+        heads = [head.text for head in table.findall("thead/tr/th")]
+        assert heads == ["row", "from", "to", "smooth length", "mean width", "least width"]  # fit a phone
+        assert "nowrap" not in own._table.value
+        assert "CSV file has all" in table.find("caption").text
         lengths = [float(row.findall("td")[2].text) for row in rows]
         assert lengths == sorted(lengths, reverse=True)
 
