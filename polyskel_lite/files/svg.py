@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ..checks import as_flag, as_number
+from ..checks import as_flag, as_number, library
 from ..errors import InputError, LeftOutWarning
 from .areas import Area, distinct
 from .usvg import normalised, stroked
@@ -139,11 +139,8 @@ def _area(part: _Part, chord: float) -> Area:
 
 
 def _svg_tools():
-    try:
-        from svgpathtools import document, parse_path, parser
-    except ImportError:
-        raise InputError("reading SVG needs svgpathtools; run: pip install svgpathtools") from None
-    return document.CONVERSIONS, parse_path, parser.parse_transform
+    tools = library("svgpathtools", "reading SVG")
+    return tools.document.CONVERSIONS, tools.parse_path, tools.parser.parse_transform
 
 
 # --- what is in the tree --------------------------------------------------------------------------

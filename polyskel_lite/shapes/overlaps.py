@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..checks import as_number
+from ..checks import as_number, library
 from ..errors import InputError
 from ..exact import locate
 from ..files import Area
@@ -20,20 +19,6 @@ TOLERANCE, WIDTH = 1e-6, 1e-4
 _CUT = np.exp(1j * (0.4 + np.arange(8) * np.pi / 4)).view(float).reshape(8, 2) / 2
 # A narrow tip can touch again beside the cut, but not often, and not beside a larger one.
 _OPENINGS = 8
-
-
-def library(name: str):
-    """A package that mends, or a sentence about how to install it.
-
-    Examples
-    --------
-    >>> library("scipy").__name__
-    'scipy'
-    """
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise InputError(f'mending needs {name}; run: pip install "polyskel-lite[mend]"') from None
 
 
 def shown_rings(areas: Sequence[Area]) -> tuple[list, list[str]]:
@@ -111,7 +96,7 @@ def mended_rings(
     >>> len(rings[0]), report
     (8, {'rings': 2, 'outlines': 1})
     """
-    shapely = library("shapely")
+    shapely = library("shapely", "mending", "mend")
     every = list(_with_clips(areas))
     given = np.concatenate([ring for area in every for ring in area.rings])
     owner = [name for area in every for name, ring in zip(area.names, area.rings, strict=True) for _ in ring]

@@ -8,7 +8,7 @@ from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..errors import InputError
+from ..checks import library
 from ..files import writing
 from ..tables import Table, table
 from .axes import Axis, axis_of
@@ -112,11 +112,7 @@ class Branches(list[Branch]):
         >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).to_dataframe().shape
         (1, 7)
         """
-        try:
-            import pandas
-        except ImportError:
-            raise InputError("pandas is not installed; run: pip install pandas") from None
-        return pandas.DataFrame(self.records(), columns=list(COLUMNS))
+        return library("pandas").DataFrame(self.records(), columns=list(COLUMNS))
 
 
 def branch_rows(skeleton: BallComplex) -> Branches:
