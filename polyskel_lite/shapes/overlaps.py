@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from ..checks import as_number, library
 from ..errors import InputError
-from ..exact import locate
+from ..exact import locate, spread_out
 from ..files import Area
 from .rings import check_meetings, may_surround, ring_facets, turn_of
 
@@ -67,13 +67,9 @@ def shown_rings(areas: Sequence[Area]) -> tuple[list, list[str]]:
 
     kept = [k for k in range(len(rings)) if shown(around[k]) != shown([*around[k], k])]
     if len(kept) < len(rings):
-        first_of = np.cumsum([0, *map(len, rings)])
-
-        def place(vertex: int) -> tuple[str, int]:
-            k = int(np.searchsorted(first_of, vertex, side="right")) - 1
-            return names[k], int(vertex - first_of[k])
-
-        check_meetings(np.concatenate(rings), ring_facets([*map(len, rings)]), place)
+        of, number = spread_out(np.array([*map(len, rings)]))
+        facets = ring_facets([*map(len, rings)])
+        check_meetings(np.concatenate(rings), facets, lambda vertex: (names[of[vertex]], int(number[vertex])))
     return [rings[k] for k in kept], [names[k] for k in kept]
 
 
@@ -195,14 +191,11 @@ def _filled(shapely, rings: list, rule: str, grid: float):
 
 def _winding(ring: np.ndarray, queries: np.ndarray) -> np.ndarray:
     """How often a ring runs around each query, which is not on it."""
-    count = np.zeros(len(queries), dtype=int)
-    (ax, ay), (bx, by) = ring.T, np.roll(ring, -1, axis=0).T
-    for k, (x, y) in enumerate(queries):
-        over = np.flatnonzero((ay > y) != (by > y))
-        side = (bx[over] - ax[over]) * (y - ay[over]) - (by[over] - ay[over]) * (x - ax[over])
-        up = by[over] > ay[over]
-        count[k] = (up & (side > 0)).sum() - (~up & (side < 0)).sum()
-    return count
+    turns = []
+    for query in queries:
+        seen = (ring - query) @ (1, 1j)
+        turns.append(np.angle(np.roll(seen, -1) / seen).sum() / (2 * np.pi))
+    return np.rint(turns).astype(int)
 
 
 def _pinches(shapely, whole, grid: float) -> np.ndarray:

@@ -130,10 +130,7 @@ def _united(points, faces, crossing, report) -> tuple[np.ndarray, np.ndarray]:
 def _turned_faces(points, faces, after, mended) -> int:
     """How many faces run the other way round than before."""
     _, index = cKDTree(points).query(after)
-    first = {tuple(np.roll(face, -face.argmin())) for face in faces}
-    now = index[mended]
-    return sum(
-        tuple(np.roll(face[::-1], -face[::-1].argmin())) in first
-        and tuple(np.roll(face, -face.argmin())) not in first
-        for face in now
+    before, back = (
+        {tuple(np.roll(face, -face.argmin())) for face in some} for some in (faces, index[mended][:, ::-1])
     )
+    return len(before & back)
