@@ -30,6 +30,7 @@ _LEFT_OUT = ("text", "image", "foreignObject", "mask", "filter", "pattern")
 _BEYOND = ("style", "use", "switch")
 _BEYOND_ATTRIBUTES = {"clip-path", "marker", "marker-start", "marker-mid", "marker-end", "transform-origin"}
 _BEYOND_ATTRIBUTES |= {"systemLanguage", "requiredExtensions", "requiredFeatures"}
+_INHERITED = {"fill", "fill-rule", "clip-rule", "visibility", "fill-opacity"}
 _UNITS = {"": 1, "px": 1, "pt": 4 / 3, "pc": 16, "mm": 96 / 25.4, "cm": 96 / 2.54, "in": 96}
 _CLEAR = re.compile(r"transparent|rgba|hsla|/|^#(.{4}|.{8})$")
 
@@ -188,10 +189,7 @@ def _warn(name: str, what: str) -> None:
 def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> Iterator[_Part]:
     """All elements with an area at or below one; `around` is what they inherit."""
     tag, own = _tag(element), _properties(element)
-    inherited = {
-        k: own[k] for k in ("fill", "fill-rule", "clip-rule", "visibility", "fill-opacity") if k in own
-    }
-    around = around | inherited
+    around = around | {name: own[name] for name in own.keys() & _INHERITED}
     if own.get("display") == "none" or _nothing(own.get("opacity")):
         return
     try:
@@ -216,7 +214,7 @@ def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> It
     if around.get("stroke") and own.get("stroke", "none") != "none" and tag == "path":
         outline = stroked(own)
         if around.get("visibility", "visible") == "visible" and outline:
-            subpaths = list(_loops(tools[1](outline)))
+            subpaths = tools[1](outline).continuous_subpaths()
             yield _Part(subpaths, matrix, f"the line of {_called(element, tag)}", "nonzero", clips, True)
     if tag in ("svg", "g", "a"):
         for child in element:
@@ -257,36 +255,19 @@ def _subpaths(element, tag: str, tools) -> list[list]:
             _round(attributes)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # arcs without a radius are lines
-            return list(_loops(parse_path(conversions[tag](attributes))))
+            path = parse_path(conversions[tag](attributes))
+        return path.continuous_subpaths() if path else []
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise _Beyond(f"{_called(element, tag)} ({error})") from None
 
 
 def _round(rect: dict) -> None:
     """Radii of a rectangle's corners as SVG means them: at most half a side, and both or none."""
-    given = {name: float(rect.pop(name)) for name in ("rx", "ry") if name in rect}
-    sides = [("rx", "width"), ("ry", "height")]
-    radii = {
-        name: min(given.get(name, next(iter(given.values()), 0)), float(rect.get(side, 0)) / 2)
-        for name, side in sides
-    }
+    rx, ry = rect.pop("rx", None), rect.pop("ry", None)
+    given = {"rx": (rx or ry or 0, "width"), "ry": (ry or rx or 0, "height")}
+    radii = {name: min(float(r), float(rect.get(side, 0)) / 2) for name, (r, side) in given.items()}
     if min(radii.values()) > 0:
         rect |= radii
-
-
-def _loops(path) -> Iterator[list]:
-    """Runs of segments, ended where they jump or are back at their beginning."""
-    run: list = []
-    for segment in path:
-        if run and run[-1].end != segment.start:
-            yield run
-            run = []
-        run.append(segment)
-        if segment.end == run[0].start:
-            yield run
-            run = []
-    if run:
-        yield run
 
 
 def _closed(pieces: list) -> bool:
@@ -341,7 +322,10 @@ def _framed(areas: list[Area], frame: np.ndarray | None) -> list[Area]:
 
 def _polygon(pieces: list, matrix: np.ndarray, chord: float) -> np.ndarray:
     """Vertices along the segments, transformed, y upward, no farther than `chord` from the curve."""
-    z = [s.point(t) for s in pieces for t in _parameters(s, _share(matrix, chord))]
+    counts = [int(_count(s, _share(matrix, chord))) for s in pieces]
+    z = [
+        s.point(t) for s, n in zip(pieces, counts, strict=True) for t in np.linspace(0, 1, n, endpoint=False)
+    ]
     z = np.array(z if _closed(pieces) else [*z, pieces[-1].end])
     x, y = matrix[:2, :2] @ [z.real, z.imag] + matrix[:2, 2:]
     return np.stack([x, -y], axis=1)
@@ -351,11 +335,6 @@ def _share(matrix: np.ndarray, chord: float) -> float:
     """How far a chord may leave a curve before the transform."""
     scale = float(np.linalg.norm(matrix[:2, :2], 2))
     return chord / scale if scale else np.inf
-
-
-def _parameters(segment, chord: float) -> np.ndarray:
-    """Where to put vertices on a segment, its end left out."""
-    return np.linspace(0, 1, int(_count(segment, chord)), endpoint=False)
 
 
 def _count(segment, chord: float) -> float:
