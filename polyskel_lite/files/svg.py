@@ -90,7 +90,7 @@ def svg_areas(path: str | PathLike, tolerance: float = 1e-3, stroke: bool = Fals
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last two: unknown encodings
         raise InputError(f"this is not XML ({error}); save it again as SVG.") from None
-    tools = _svg_tools()
+    tools = library("svgpathtools", "reading SVG")
     try:
         if stroke:
             raise _Beyond("the width of lines")
@@ -137,11 +137,6 @@ def _area(part: _Part, chord: float) -> Area:
     some = [(ring, name) for ring, name in zip(rings, names, strict=True) if len(ring) > 2]
     clips = tuple([_area(p, chord) for p in clip] for clip in part.clips)  # the others enclose nothing
     return Area([ring for ring, _ in some], [name for _, name in some], part.rule, clips)
-
-
-def _svg_tools():
-    tools = library("svgpathtools", "reading SVG")
-    return tools.document.CONVERSIONS, tools.parse_path, tools.parser.parse_transform
 
 
 # --- what is in the tree --------------------------------------------------------------------------
@@ -195,12 +190,13 @@ def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> It
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", UserWarning)  # a skipped transform would be a wrong shape
-            matrix = matrix @ tools[2](element.get("transform"))
+            matrix = matrix @ tools.parser.parse_transform(element.get("transform"))
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise _Beyond(f"the transform of {_called(element, tag)} ({error})") from None
     if "clip-path" in own:
         clips = (*clips, *_clips(own["clip-path"], matrix, around, tools))
-    if tag in tools[0] and tag != "line" and around.get("visibility", "visible") == "visible":
+    visible = around.get("visibility", "visible") == "visible"
+    if visible and tag in tools.document.CONVERSIONS and tag != "line":
         fill = around.get("fill", "")
         if _CLEAR.search(fill) and not fill.startswith("url"):
             raise _Beyond(f"the colour {fill}")
@@ -211,11 +207,10 @@ def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> It
             subpaths = [pieces for pieces in subpaths if _closed(pieces)]
         if subpaths:
             yield _Part(subpaths, matrix, _called(element, tag), rule, clips, filled)
-    if around.get("stroke") and own.get("stroke", "none") != "none" and tag == "path":
-        outline = stroked(own)
-        if around.get("visibility", "visible") == "visible" and outline:
-            subpaths = tools[1](outline).continuous_subpaths()
-            yield _Part(subpaths, matrix, f"the line of {_called(element, tag)}", "nonzero", clips, True)
+    stroke = around.get("stroke") and tag == "path" and own.get("stroke", "none") != "none"
+    if visible and stroke and (outline := stroked(own)):
+        subpaths = tools.parse_path(outline).continuous_subpaths()
+        yield _Part(subpaths, matrix, f"the line of {_called(element, tag)}", "nonzero", clips, True)
     if tag in ("svg", "g", "a"):
         for child in element:
             yield from _parts(child, matrix, around, clips, tools)
@@ -231,7 +226,7 @@ def _clips(reference: str, matrix: np.ndarray, around: dict, tools) -> Iterator[
         return
     if found.get("clipPathUnits") == "objectBoundingBox":
         raise InputError("it has a clip path in shares of what it clips; clip it in the drawing program.")
-    inner = matrix @ tools[2](found.get("transform"))
+    inner = matrix @ tools.parser.parse_transform(found.get("transform"))
     inside = {"clips": around["clips"]}
     yield [
         part._replace(rule=child.get("clip-rule", "nonzero"))
@@ -248,14 +243,13 @@ def _called(element, tag: str) -> str:
 
 
 def _subpaths(element, tag: str, tools) -> list[list]:
-    conversions, parse_path, _ = tools
     attributes = dict(element.attrib)
     try:
         if tag == "rect":
             _round(attributes)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # arcs without a radius are lines
-            path = parse_path(conversions[tag](attributes))
+            path = tools.parse_path(tools.document.CONVERSIONS[tag](attributes))
         return path.continuous_subpaths() if path else []
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise _Beyond(f"{_called(element, tag)} ({error})") from None
