@@ -149,7 +149,7 @@ def write_complex(path: str | PathLike, points, edges, polygons, data) -> None:
     path : str or path
     points : (k, N) float array
     edges : (e, 2) int array
-    polygons : sequence of int arrays
+    polygons : Polygons or (t, 3) int array
     data : dict of str to (k,) array
 
     Raises
@@ -204,7 +204,7 @@ def writing(path) -> Iterator[Path]:
 
 
 def _write(path: Path, points, edges, polygons, data) -> None:
-    points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
+    points = np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
     with writing(path):
         if path.suffix.lower() == ".glb":
             _write_glb(path, points, edges, polygons)
@@ -236,12 +236,8 @@ def _by_size(polygons) -> list[np.ndarray]:
 def _write_glb(path: Path, points, edges, polygons) -> None:
     trimesh = library("trimesh")
     scene = trimesh.Scene()
-    triangles = [
-        np.stack([np.repeat(block[:, :1], block.shape[1] - 2, axis=1), block[:, 1:-1], block[:, 2:]], axis=2)
-        for block in _by_size(polygons)
-    ]
-    if triangles:
-        faces = np.concatenate([block.reshape(-1, 3) for block in triangles])
+    faces = polygons.triangles() if hasattr(polygons, "triangles") else polygons
+    if len(faces):
         scene.add_geometry(trimesh.Trimesh(points, faces, process=False), geom_name="faces")
     if len(edges):
         lines = trimesh.path.Path3D(

@@ -34,9 +34,9 @@ class Exchange(Boundary):
     def to_file(self, path: str | PathLike) -> None:
         """Write the boundary; the suffix says how.
 
-        In 2D as GeoJSON, WKT (.wkt) or SVG. In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D
-        also as STL or OFF: these need the extra ``meshes``. Coordinates are kept to the last bit, except
-        that STL and glTF round them to single precision. See `polyskel_lite.files.write_surface`.
+        In 2D as GeoJSON, WKT (.wkt) or SVG, by shapely. In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk,
+        .vtu), in 3D also as STL or OFF: these need the extra ``meshes``. Coordinates are kept to the last
+        bit, except that STL and glTF round them to single precision. See `polyskel_lite.files.write_surface`.
 
         Examples
         --------

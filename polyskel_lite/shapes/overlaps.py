@@ -201,9 +201,7 @@ def _winding(ring: np.ndarray, queries: np.ndarray) -> np.ndarray:
 def _pinches(shapely, whole, grid: float) -> np.ndarray:
     """Where the boundary of a region touches itself, (k, 2)."""
     lines = shapely.get_parts(shapely.union_all([shapely.boundary(whole)], grid_size=grid))
-    ends = np.concatenate(
-        [shapely.get_coordinates(lines[k])[[0, -1]] for k in range(len(lines))] or [np.zeros((0, 2))]
-    )
+    ends = shapely.get_coordinates([shapely.get_point(lines, 0), shapely.get_point(lines, -1)])
     places, count = np.unique(ends, axis=0, return_counts=True)
     return places[count > 2]
 
