@@ -147,7 +147,7 @@ def longest_path(skeleton: BallComplex) -> list[int]:
     >>> longest_path(psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]))
     [0, 1]
     """
-    finite = np.isfinite(skeleton.vertices).all(axis=1)
+    finite = np.asarray(np.isfinite(skeleton.vertices).all(axis=1))
     if not finite.any():
         raise InputError("the skeleton has no vertex, and so no axis; take another threshold or method.")
     edges = np.unique(np.sort(skeleton.edges[finite[skeleton.edges].all(axis=1)], axis=1), axis=0)
@@ -158,15 +158,15 @@ def longest_path(skeleton: BallComplex) -> list[int]:
     count, label = components(len(finite), edges)
     label = label[edges[:, 0]]
     total = np.bincount(label, lengths, minlength=count)
-    best = 0.0, np.where(finite, skeleton.radii, -1).argmax(keepdims=True)
+    best = 0.0, [int(np.where(finite, skeleton.radii, -1).argmax())]
     for c in np.argsort(-total, kind="stable"):
         if total[c] <= best[0]:  # no path is longer than all edges together
             break
         members, local = np.unique(edges[label == c], return_inverse=True)
         length, path = _longest(local.reshape(-1, 2), lengths[label == c])
         if length > best[0]:
-            best = length, members[path]
-    return best[1].tolist()
+            best = length, members[path].tolist()
+    return best[1]
 
 
 def _longest(edges: np.ndarray, lengths: np.ndarray) -> tuple[float, list[int]]:
