@@ -9,6 +9,7 @@ from __future__ import annotations
 from numbers import Integral, Real
 from os import PathLike, fspath
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,22 @@ def shown(value) -> str:
 def _kind(value) -> str:
     empty = isinstance(value, (list, tuple, dict, set)) and not value
     return f"{'an empty' if empty else 'a'} {type(value).__name__}"
+
+
+def library(name: str, what: str = "", extra: str = "") -> ModuleType:
+    """A package that not everybody has, or a sentence about what needs it and how to install it.
+
+    Examples
+    --------
+    >>> library("networkx").__name__
+    'networkx'
+    """
+    try:
+        return __import__(name)
+    except ImportError:
+        said = f"{what} needs {name}" if what else f"{name} is not installed"
+        name = f'"polyskel-lite[{extra}]"' if extra else name
+        raise InputError(f"{said}; run: pip install {name}") from None
 
 
 def as_choice(value, what: str, choices) -> str:

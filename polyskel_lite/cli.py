@@ -102,7 +102,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _read(options) -> Shape:
     _say(f"reading {options.file}")
-    return Shape.from_file(options.file, **({"mend": True} if options.mend else {}))
+    return Shape.from_file(options.file, mend=options.mend)
 
 
 def _bones(options) -> Bones:
@@ -117,31 +117,27 @@ def _say(step: str) -> None:
         print(f"{step} ...", file=sys.stderr, flush=True)
 
 
-def _shape_facts(shape: Shape) -> dict[str, Any]:
-    kind, ball = ("area", "disc") if shape.dimension == 2 else ("volume", "ball"), shape.largest_ball()
-    return {
-        "dimension": shape.dimension,
-        "points": len(shape.points),
-        "facets": len(shape.facets),
-        "bounds": [shape.points.min(axis=0).tolist(), shape.points.max(axis=0).tolist()],
-        "betti": list(shape.betti()),
-        kind[0]: shape.measure(),
-        "boundary": shape.boundary_measure(),
-        f"greatest_{kind[1]}": {"center": ball.center.tolist(), "radius": ball.radius},
-    }
-
-
 def _info(options) -> None:
     shape = _read(options)
-    facts = _shape_facts(shape)
+    measure, round_one = ("area", "disc") if shape.dimension == 2 else ("volume", "ball")
+    ball = shape.largest_ball()
     if options.json:
+        facts = {
+            "dimension": shape.dimension,
+            "points": len(shape.points),
+            "facets": len(shape.facets),
+            "bounds": [shape.points.min(axis=0).tolist(), shape.points.max(axis=0).tolist()],
+            "betti": list(shape.betti()),
+            measure: shape.measure(),
+            "boundary": shape.boundary_measure(),
+            f"greatest_{round_one}": {"center": ball.center.tolist(), "radius": ball.radius},
+        }
         print(json.dumps(facts))
         return
-    (kind, size), (_, boundary), (name, ball) = list(facts.items())[5:]
-    center = ", ".join(f"{x:.6g}" for x in ball["center"])
+    center = ", ".join(f"{x:.6g}" for x in ball.center)
     print(f"{Path(options.file).name}: {shape}")
-    print(f"{kind} {size:.6g}, boundary {boundary:.6g}")
-    print(f"{name.replace('_', ' ')}: radius {ball['radius']:.6g} at ({center})")
+    print(f"{measure} {shape.measure():.6g}, boundary {shape.boundary_measure():.6g}")
+    print(f"greatest {round_one}: radius {ball.radius:.6g} at ({center})")
 
 
 def _skeleton(options) -> None:

@@ -9,9 +9,6 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from ..errors import InputError
-from ..graphs import Tessellation
-from ..polyballs import Polyball
-from ..skeletons import Skeleton
 from .balls import draw_balls
 from .counts import draw_branch_counts
 from .graphs import draw_delaunay, draw_skeleton
@@ -66,22 +63,24 @@ def plot(thing: Any, ax: Axes | None = None, **style) -> Axes:
         return plot(inner, ax, **style)
     if hasattr(thing, "counts"):
         return draw_branch_counts(plt.subplots()[1] if ax is None else ax, thing, **style)
-    draw = next((pair for known, pair in _DRAWINGS if known(thing)), None)
-    if draw is None:
+    kinds = [kind.__name__ for kind in type(thing).__mro__ if kind.__name__ in _DRAWINGS]
+    if not kinds:
         raise InputError(
             f"there is no drawing for a {type(thing).__name__}; pass a Shape, or what is made of it."
         )
-    return draw[thing.dimension - 2](_axes(thing) if ax is None else ax, thing, **style)
+    draw = _DRAWINGS[kinds[0]][thing.dimension - 2]
+    return draw(_axes(thing) if ax is None else ax, thing, **style)
 
 
 def _axes(thing: Any) -> Axes:
     return (axes() if thing.dimension == 2 else axes_3d())[1]
 
 
-_DRAWINGS: list[tuple[Callable[[Any], bool], tuple[Callable[..., Axes], Callable[..., Axes]]]] = [
-    (lambda thing: isinstance(thing, Polyball), (draw_balls, draw_polyball_3d)),
-    (lambda thing: isinstance(thing, Skeleton), (draw_skeleton, draw_skeleton_3d)),
-    (lambda thing: isinstance(thing, Tessellation), (draw_delaunay, draw_tessellation_3d)),
-    (lambda thing: hasattr(thing, "inner"), (draw_delaunay, draw_glass)),
-    (lambda thing: hasattr(thing, "facets"), (draw_shape, draw_mesh)),
-]
+# By name: what draws imports no shape.
+_DRAWINGS: dict[str, tuple[Callable[..., Axes], Callable[..., Axes]]] = {
+    "Polyball": (draw_balls, draw_polyball_3d),
+    "Skeleton": (draw_skeleton, draw_skeleton_3d),
+    "Tessellation": (draw_delaunay, draw_tessellation_3d),
+    "DelaunayShape": (draw_delaunay, draw_glass),
+    "Shape": (draw_shape, draw_mesh),
+}

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..checks import library
 from ..errors import InputError
 
 
@@ -86,15 +87,10 @@ def triangles(points: np.ndarray, faces: Sequence) -> np.ndarray:
 
 def _cut(corners: np.ndarray, normal: np.ndarray) -> np.ndarray:
     """Triangles of one concave face, seen along the axis nearest to its normal."""
-    try:
-        from manifold3d import triangulate
-    except ImportError:
-        raise InputError(
-            'a face is not convex; cutting it needs manifold3d, run: pip install "polyskel-lite[mend]"'
-        ) from None
+    manifold = library("manifold3d", "cutting a face that is not convex", "mend")
     axis = int(np.abs(normal).argmax())
     flat = np.roll(corners, -1 - axis, axis=1)[:, :2] * (1, np.sign(normal[axis]))
-    found = np.array(triangulate([flat]), dtype=np.int64)
+    found = np.array(manifold.triangulate([flat]), dtype=np.int64)
     if len(found) != len(flat) - 2:
         raise InputError("a face with more than three corners crosses itself; save triangles.")
     return found

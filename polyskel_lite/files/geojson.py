@@ -90,9 +90,8 @@ def _polygons(content, where: str, skipped: Counter) -> Iterator[list[tuple[list
 
 def _position_ring(positions, where: str) -> np.ndarray:
     is_list = isinstance(positions, list) and all(isinstance(p, list) and len(p) > 1 for p in positions)
-    if not is_list or not positions:
-        raise InputError(f"{where} is not a list of positions [x, y]; save the file again as GeoJSON.")
-    ring = as_floats([position[:2] for position in positions], where, "positions [x, y]")
+    pairs = [position[:2] for position in positions] if is_list else []
+    ring = as_floats(pairs, where, "positions [x, y]")
     if ring.ndim != 2:
         raise InputError(f"{where} is not a list of positions [x, y]; save the file again as GeoJSON.")
     if (ring[0] != ring[-1]).any():

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..checks import as_path
+from ..checks import as_path, library
 from ..errors import InputError, PolyskelError
 from .faces import obj_faces, off_faces, triangles
 
@@ -77,13 +77,13 @@ def read_mesh(path: str | PathLike) -> tuple[np.ndarray, np.ndarray]:
 
 def _polygons(path: Path) -> tuple[np.ndarray, Sequence]:
     """Vertices, and faces with any number of corners."""
-    trimesh = _library("trimesh")
+    trimesh = library("trimesh")
     if path.suffix.lower() in _TEXT:
         return _TEXT[path.suffix.lower()](path.read_text(encoding="utf-8", errors="replace"))
     mesh = trimesh.load_mesh(path, process=False)
     raw = mesh.metadata.get("_ply_raw", {}).get("face", {"length": len(mesh.faces)})
     if raw["length"] != len(mesh.faces):  # trimesh has cut polygons, and concave ones wrongly
-        mesh = _library("meshio").read(path, file_format="ply")
+        mesh = library("meshio").read(path, file_format="ply")
         return mesh.points, [face for block in mesh.cells for face in block.data.tolist()]
     return np.array(mesh.vertices, dtype=float), mesh.faces.tolist()
 
@@ -130,7 +130,7 @@ def write_surface(path: str | PathLike, points: np.ndarray, facets: np.ndarray) 
         return
     path = _checked(path, _SURFACE_SUFFIXES, "a solid")
     if path.suffix.lower() in (".stl", ".off"):
-        mesh = _library("trimesh").Trimesh(points, facets, process=False)
+        mesh = library("trimesh").Trimesh(points, facets, process=False)
         options = {"digits": 30} if path.suffix.lower() == ".off" else {}
         with writing(path):
             mesh.export(path, file_type=path.suffix.lower()[1:], **options)
@@ -149,7 +149,7 @@ def write_complex(path: str | PathLike, points, edges, polygons, data) -> None:
     path : str or path
     points : (k, N) float array
     edges : (e, 2) int array
-    polygons : sequence of int arrays
+    polygons : Polygons or (t, 3) int array
     data : dict of str to (k,) array
 
     Raises
@@ -203,15 +203,8 @@ def writing(path) -> Iterator[Path]:
         raise InputError(f"{path.name[:60]} cannot be written ({why}); choose another place.") from None
 
 
-def _library(name: str):
-    try:
-        return __import__(name)
-    except ImportError:
-        raise InputError(f"{name} is not installed; run: pip install {name}") from None
-
-
 def _write(path: Path, points, edges, polygons, data) -> None:
-    points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
+    points = np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
     with writing(path):
         if path.suffix.lower() == ".glb":
             _write_glb(path, points, edges, polygons)
@@ -220,7 +213,7 @@ def _write(path: Path, points, edges, polygons, data) -> None:
 
 
 def _write_lines(path: Path, points, edges, polygons, data) -> None:
-    meshio = _library("meshio")
+    meshio = library("meshio")
     cells = []
     if len(edges) and path.suffix.lower() != ".obj":
         cells.append(("line", np.asarray(edges, dtype=np.int32)))
@@ -241,14 +234,10 @@ def _by_size(polygons) -> list[np.ndarray]:
 
 
 def _write_glb(path: Path, points, edges, polygons) -> None:
-    trimesh = _library("trimesh")
+    trimesh = library("trimesh")
     scene = trimesh.Scene()
-    triangles = [
-        np.stack([np.repeat(block[:, :1], block.shape[1] - 2, axis=1), block[:, 1:-1], block[:, 2:]], axis=2)
-        for block in _by_size(polygons)
-    ]
-    if triangles:
-        faces = np.concatenate([block.reshape(-1, 3) for block in triangles])
+    faces = polygons.triangles() if hasattr(polygons, "triangles") else polygons
+    if len(faces):
         scene.add_geometry(trimesh.Trimesh(points, faces, process=False), geom_name="faces")
     if len(edges):
         lines = trimesh.path.Path3D(

@@ -135,8 +135,7 @@ def picture_rings(path: Path, level: float, smooth: float, invert) -> list[np.nd
     (8, 2)
     """
     auto = isinstance(invert, str) and invert == "auto"
-    if not auto and as_flag(invert, "invert"):
-        invert = True
+    asked = not auto and as_flag(invert, "invert")
     values, kind, turned = _silhouette(_colours(path), level)
     reach = values >= level
     if reach.all() or not reach.any():
@@ -151,7 +150,7 @@ def picture_rings(path: Path, level: float, smooth: float, invert) -> list[np.nd
             LeftOutWarning,
             stacklevel=5,
         )
-    return trace(1 - values if (turned if auto else invert) else values, level, smooth)
+    return trace(1 - values if asked or (auto and turned) else values, level, smooth)
 
 
 def _colours(path: Path) -> np.ndarray:

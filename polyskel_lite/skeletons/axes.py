@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -148,70 +147,56 @@ def longest_path(skeleton: BallComplex) -> list[int]:
     >>> longest_path(psl.voronoi([(0, 0), (4, 0), (0, 2), (4, 3)]))
     [0, 1]
     """
-    k = len(skeleton.vertices)
     finite = np.asarray(np.isfinite(skeleton.vertices).all(axis=1))
     if not finite.any():
         raise InputError("the skeleton has no vertex, and so no axis; take another threshold or method.")
-    edges = skeleton.edges[finite[skeleton.edges].all(axis=1)]
-    points = skeleton.vertices[finite]
-    exponent = int(np.frexp(np.abs(points).max())[1])
+    edges = np.unique(np.sort(skeleton.edges[finite[skeleton.edges].all(axis=1)], axis=1), axis=0)
+    exponent = int(np.frexp(np.abs(skeleton.vertices[finite]).max())[1])
     d = np.ldexp(skeleton.vertices[edges[:, 1]] - skeleton.vertices[edges[:, 0]], -exponent)
     # Cocircular samples have vertices at one place: a path through them is no longer, but it is one.
     lengths = np.maximum(np.linalg.norm(d, axis=1), 1e-300)
-    _, label = components(k, edges)
-    total = np.bincount(label[edges[:, 0]], lengths, minlength=label.max() + 1)
-    if not total.any():
-        return [int(np.where(finite, skeleton.radii, -1).argmax())]
-    best: tuple[float, list[int]] = (0.0, [])
-    for c in np.argsort(-total, kind="stable").tolist():
+    count, label = components(len(finite), edges)
+    label = label[edges[:, 0]]
+    total = np.bincount(label, lengths, minlength=count)
+    best = 0.0, [int(np.where(finite, skeleton.radii, -1).argmax())]
+    for c in np.argsort(-total, kind="stable"):
         if total[c] <= best[0]:  # no path is longer than all edges together
             break
-        rows = np.flatnonzero(label[edges[:, 0]] == c)
-        members, local = np.unique(edges[rows], return_inverse=True)
-        found = _longest(len(members), local.reshape(-1, 2), lengths[rows])
-        if found[0] > best[0]:
-            best = found[0], members[found[1]].tolist()
+        members, local = np.unique(edges[label == c], return_inverse=True)
+        length, path = _longest(local.reshape(-1, 2), lengths[label == c])
+        if length > best[0]:
+            best = length, members[path].tolist()
     return best[1]
 
 
-def _longest(n: int, edges: np.ndarray, lengths: np.ndarray) -> tuple[float, list[int]]:
+def _longest(edges: np.ndarray, lengths: np.ndarray) -> tuple[float, list[int]]:
     """The longest shortest path of a connected graph, or the whole of a closed line."""
+    n = int(edges.max()) + 1
     if (occurrences(edges, n) == 2).all():
         length, path = _path(_graph(n, edges[1:], lengths[1:]), *edges[0])
         return length + lengths[0], [*path, path[0]]
     graph = _graph(n, edges, lengths)
     a = int(dijkstra(graph, indices=0).argmax())
-    b = int(dijkstra(graph, indices=a).argmax())
-    length, path = _path(graph, a, b)
+    ways = dijkstra(graph, indices=a)
+    length, path = _path(graph, a, int(ways.argmax()))
     if len(edges) == n - 1:  # in a tree that is it
         return length, path
     # One end of a longer path is farther from any vertex than half of it: those far from a middle are tried.
-    some = path[:: len(path) // 32 + 1]
-    ways = dijkstra(graph, indices=some)
-    middle = ways[ways.max(axis=1).argmin()]
-    return max([(length, path), *_longer(graph, middle, length)], key=lambda found: found[0])
-
-
-def _longer(graph: csr_array, away: np.ndarray, length: float) -> Iterator[tuple[float, list[int]]]:
+    away = dijkstra(graph, indices=path[np.abs(ways[path] - length / 2).argmin()])
     order = np.argsort(-away, kind="stable")
-    for begin in range(0, len(order), _SOURCES):
-        if 2 * away[order[begin]] <= length:
-            return
-        sources = order[begin : begin + _SOURCES]
+    for sources in np.split(order, range(_SOURCES, n, _SOURCES)):
+        if 2 * away[sources[0]] <= length:
+            break
         ways = dijkstra(graph, indices=sources)
-        a, b = np.unravel_index(ways.argmax(), ways.shape)
-        if ways[a, b] > length * (1 + 1e-12):
-            length, path = _path(graph, int(sources[a]), int(b))
-            yield length, path
+        source, end = np.unravel_index(ways.argmax(), ways.shape)
+        if ways[source, end] > length * (1 + 1e-12):
+            length, path = _path(graph, int(sources[source]), int(end))
+    return length, path
 
 
 def _graph(n: int, edges: np.ndarray, lengths: np.ndarray) -> csr_array:
-    """Both directions of every edge; of several between the same two vertices the shortest."""
     ends = np.concatenate([edges, edges[:, ::-1]])
-    twice = np.concatenate([lengths, lengths])
-    order = np.lexsort([twice, *ends.T[::-1]])
-    first = order[(np.diff(ends[order], axis=0, prepend=-1) != 0).any(axis=1)]
-    return csr_array((twice[first], tuple(ends[first].T)), shape=(n, n))
+    return csr_array((np.tile(lengths, 2), tuple(ends.T)), shape=(n, n))
 
 
 def _path(graph: csr_array, start: int, end: int) -> tuple[float, list[int]]:

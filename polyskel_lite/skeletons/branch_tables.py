@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import csv
 import io
-from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..errors import InputError
+from ..checks import library
 from ..files import writing
-from ..tables import Table, table
+from ..tables import Table
 from .axes import Axis, axis_of
 from .branches import branch_graph
 from .complexes import BallComplex
@@ -46,7 +45,7 @@ class Branch(NamedTuple):
 
 #: The columns of a table of branches: everything that is a word or a number.
 COLUMNS = Branch._fields[:-1]
-_HEAD = [name.replace("_", " ") for name in COLUMNS]
+_HEAD = tuple(name.replace("_", " ") for name in COLUMNS)
 
 
 class Branches(list[Branch]):
@@ -75,8 +74,8 @@ class Branches(list[Branch]):
         start  end    length  smooth length  mean radius  least radius  largest radius
         end 0  end 4     4.5            4.4            1           0.9             1.2
         """
-        made = table([[*row[:2], *(f"{x:.4g}" for x in row[2:-1])] for row in self], _HEAD)
-        return replace(made, words=tuple(k < 2 for k in range(len(_HEAD))))
+        rows = tuple((*row[:2], *(f"{x:.4g}" for x in row[2:-1])) for row in self)
+        return Table(_HEAD, rows, tuple(k < 2 for k in range(len(_HEAD))))
 
     def records(self) -> list[dict[str, str | float]]:
         """A dict for each branch, of words and numbers, as JSON and pandas take them.
@@ -112,11 +111,7 @@ class Branches(list[Branch]):
         >>> Branches([Branch("end 0", "end 4", 4.5, 4.4, 1.0, 0.9, 1.2)]).to_dataframe().shape
         (1, 7)
         """
-        try:
-            import pandas
-        except ImportError:
-            raise InputError("pandas is not installed; run: pip install pandas") from None
-        return pandas.DataFrame(self.records(), columns=list(COLUMNS))
+        return library("pandas").DataFrame(self.records(), columns=list(COLUMNS))
 
 
 def branch_rows(skeleton: BallComplex) -> Branches:
@@ -135,8 +130,6 @@ def branch_rows(skeleton: BallComplex) -> Branches:
     for a, b, data in graph.edges(data=True):
         start, end = (f"{graph.nodes[node]['kind']} {node}" for node in (a, b))
         length, smooth, mean = (data[name] for name in ("length", "smooth_length", "mean_radius"))
-        radii = data["radii"]
-        rows.append(
-            Branch(start, end, length, smooth, mean, min(radii), max(radii), axis_of(skeleton, data["path"]))
-        )
+        radii, axis = data["radii"], axis_of(skeleton, data["path"])
+        rows.append(Branch(start, end, length, smooth, mean, min(radii), max(radii), axis))
     return Branches(sorted(rows, key=lambda row: (-row.length, row[:-1])))

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..checks import as_instance
-from ..errors import InputError
+from ..checks import as_instance, library
 from ..exact import components, occurrences, spread_out
 from .complexes import BallComplex
 
@@ -43,10 +42,7 @@ def branch_graph(skeleton: BallComplex) -> networkx.MultiGraph:
     ['end', 'end']
     """
     as_instance(skeleton, BallComplex, "skeleton", "a Skeleton, such as sk0(shape)")
-    try:
-        import networkx
-    except ImportError:
-        raise InputError("networkx is not installed; run: pip install networkx") from None
+    networkx = library("networkx")
     node, sheets = _sheet_of(skeleton)
     n, k = len(skeleton.vertices), len(sheets)
     wires = skeleton.edges[free_edges(skeleton)]

@@ -101,9 +101,9 @@ class Readings(BallComplex):
         """Write edges and polygons for other programs; the suffix says how.
 
         In 2D as GeoJSON, with the numbers of each branch, WKT (.wkt) or SVG: a line for each branch (needs
-        the extra ``graph``). In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk, .vtu), with the extra
-        ``meshes``; PLY and VTK keep the radii, and `Skeleton.save` keeps everything. See
-        `polyskel_lite.files.write_complex`.
+        the extra ``graph``, and for WKT and SVG shapely). In 2D and 3D as PLY, OBJ, glTF (.glb) or VTK (.vtk,
+        .vtu), with the extra ``meshes``; PLY and VTK keep the radii, and `Skeleton.save` keeps everything.
+        See `polyskel_lite.files.write_complex`.
 
         Examples
         --------

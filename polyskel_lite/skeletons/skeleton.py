@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import as_array, as_indices, as_instance, as_number, as_path, as_points
+from ..checks import as_array, as_indices, as_instance, as_number, as_path, as_points, library
 from ..containment import DelaunayShape
 from ..errors import InputError
 from ..exact import Polygons, betti_numbers
@@ -182,10 +182,7 @@ class Skeleton(Readings):
         >>> graph.number_of_nodes(), round(graph.edges[0, 1]["length"], 3)
         (2, 0.559)
         """
-        try:
-            import networkx
-        except ImportError:
-            raise InputError("networkx is not installed; run: pip install networkx") from None
+        networkx = library("networkx")
         graph = networkx.Graph()
         rows = zip(self.vertices.tolist(), self.radii.tolist(), self.simplices.tolist(), strict=True)
         graph.add_nodes_from(

@@ -86,7 +86,9 @@ def test_hints_of_the_library_name_packages_that_it_uses():
     known = packages([line for extra in EXTRAS.values() for line in extra])
     hints = []
     for path in (ROOT / "polyskel_lite").rglob("*.py"):
-        hints += re.findall(r"pip install ([\w {}.-]+?)(?=[\"`.\n]|``)", path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        hints += re.findall(r"pip install ([\w {}.-]+?)(?=[\"`.\n]|``)", text)
+        hints += re.findall(r'\blibrary\("(\w+)"(?:, "[^"]*")?\)', text)  # with an extra, that is the hint
     assert len(hints) > 6
     assert {name for hint in hints for name in hint.split() if name != "{name}"} <= set(known)
 
