@@ -32,6 +32,7 @@ extensions = [
     "sphinx_exercise",
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",
+    "check",
     "predict",
     "states",
 ]
@@ -54,7 +55,7 @@ exclude_patterns = ["_build", "**.ipynb_checkpoints", "course/a[0-9]_*"]  # assi
 html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
-html_css_files = ["book.css", "predict.css"]
+html_css_files = ["book.css", "predict.css", "check.css"]
 html_favicon = "_static/icon.svg"
 html_show_search_summary = False  # it fetches the pages found, which a page read from disk may not do
 html_domain_indices = False  # sphinx-proof's index lists labels, which say nothing to a reader

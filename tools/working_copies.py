@@ -14,6 +14,7 @@ import hashlib
 import json
 import pickle
 import re
+import runpy
 import shutil
 import tomllib
 from collections.abc import Iterator
@@ -22,6 +23,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOKS = ROOT / "notebooks"
+#: By its path: it is an extension of the book, and no module of the library.
+CHECK = runpy.run_path(str(NOTEBOOKS / "check.py"))
 #: What chapters read beside themselves, or link to.
 BESIDE = (
     "notebooks/claims.toml",
@@ -160,6 +163,8 @@ class Chapter:
             return f"[{title}]({title})"
         if kind == "predict":
             return question(title, body)
+        if kind == "check":
+            return self_check(title, body)
         if kind == "dropdown":
             return folded(title, body)
         if kind == "solution":
@@ -244,6 +249,14 @@ def question(title: str, body: str) -> str:
     return "\n\n".join(
         filter(None, [f"**{title}**", listed, folded("Answer", "\n\n".join([*right, verdict]))])
     )
+
+
+def self_check(title: str, body: str) -> str:
+    """A question after a section: its answers as a list, and folded which of them are right and why."""
+    found = CHECK["choices"](body)
+    listed = "\n".join(f"- {answer}" for _, answer, _ in found)
+    told = [f"- {answer}: **{'yes' if mark == 'x' else 'no'}.** {why}" for mark, answer, why in found]
+    return f"**Check yourself. {title}**\n\n{listed}\n\n{folded('Which, and why', chr(10).join(told))}"
 
 
 def copies(doctrees: Path) -> dict[str, str]:

@@ -33,8 +33,8 @@ LETTERS = """() => {
 }"""
 # What does not fit a sheet of A4, or may be on two of them.
 CUT = """(height) => {
-    const cut = [];
-    for (const one of document.querySelectorAll("article :is(figure, .psl-viewer, .psl-toy, .psl-predict)")) {
+    const cut = [], whole = "article :is(figure, .psl-viewer, .psl-toy, .psl-predict, .psl-check)";
+    for (const one of document.querySelectorAll(whole)) {
         const box = one.getBoundingClientRect(), name = one.id || one.className;
         if (box.height > height) cut.push(`${name} is ${box.height} high`);
         if (box.right > innerWidth + 1) cut.push(`${name} ends at ${box.right}`);

@@ -38,6 +38,18 @@ def test_a_question_is_a_list_and_a_folded_answer(copies, name):
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
+def test_a_self_check_is_a_list_and_folded_reasons(copies, name):
+    source = text(json.loads((ROOT / "notebooks" / name).read_text(encoding="utf-8")))
+    checks = r"^\*\*Check yourself\. .*\?\*\*\n\n(?:- (?!\[).*\n){2,}\n"
+    reasons = (
+        r"<details><summary>Which, and why</summary>\n\n((?:- .*: \*\*(?:yes|no)\.\*\* .*\n){2,})\n</details>"
+    )
+    told = re.findall(checks + reasons, text(json.loads(copies[name])), re.M)
+    assert len(told) == len(re.findall(r"^:::\{check\} ", source, re.M))
+    assert all("**yes.**" in one and "**no.**" in one for one in told)
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
 def test_numbers_are_those_of_the_page(book, copies, name):
     page = (book / name.replace(".ipynb", ".html")).read_text(encoding="utf-8")
     there = re.findall(rf'<span class="caption-number">({NUMBERED}) ?', page)
@@ -71,7 +83,8 @@ def test_what_the_page_folds_is_folded(book, copies, name):
     of_solutions = {title for title in titles if title.startswith("Solution")}
     assert len(of_solutions) == len(solutions)
     assert titles.count("Answer") == page.count('class="psl-answer"')
-    assert len(set(titles) - of_solutions - {"Answer"}) == page.count(" sd-dropdown ")
+    assert titles.count("Which, and why") == page.count('class="psl-check"')
+    assert len(set(titles) - of_solutions - {"Answer", "Which, and why"}) == page.count(" sd-dropdown ")
 
 
 def block(page: str) -> str:
