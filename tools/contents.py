@@ -38,11 +38,11 @@ def contents() -> str:
         for name in (chapter["file"] for chapter in part["chapters"]):
             if name.startswith("api_"):  # one card leads to all of them
                 continue
-            picture = THUMBNAILS / f"{name}.png"
+            picture = THUMBNAILS / f"{name.replace('/', '-')}.png"
             lines += [f":::{{grid-item-card}} {{doc}}`{name}`"]
             if picture.exists():
                 lines += [
-                    f":img-top: _static/thumbnails/{name}.png",
+                    f":img-top: _static/thumbnails/{picture.name}",
                     ":img-alt: The first picture of the page",
                 ]
             lines += ["", opening(name), ":::", ""]

@@ -51,7 +51,7 @@ def main(book: Path) -> None:
             found = page.locator(PICTURE).locator("visible=true")
             if found.count():
                 small = thumbnail(found.first).quantize(48, dither=Image.Dither.NONE)
-                small.save(FOLDER / f"{name}.png", optimize=True)
+                small.save(FOLDER / f"{name.replace('/', '-')}.png", optimize=True)
         browser.close()
 
 
