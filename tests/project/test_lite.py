@@ -169,7 +169,8 @@ def test_examples_of_the_docstrings_are_true_in_pyodide(in_pyodide):
     result = in_pyodide(EXAMPLES)
     assert result["broken"] == []
     assert result["tried"] > 200
-    assert 0 < result["missing"] < 20  # SVG and mesh files, networkx
+    # Of some 700 those that need what Pyodide is not given here: networkx, trimesh, shapely, pandas, SVG parts.
+    assert 0 < result["missing"] < 40
 
 
 def test_library_finds_the_same_in_pyodide(native, in_pyodide):
