@@ -67,7 +67,9 @@ def test_page_from_disk(visit, book, name):
     opened = visit(book.as_uri(), f"{name}.html", color_scheme="light")
     assert opened.page.evaluate(LOST) == []
     assert findings(opened.page) == []
-    assert opened.page.locator("article h1").count() == 1
+    assert (
+        name == "search" or opened.page.locator("article h1").count() == 1
+    )  # the theme's, outside the article
     letters = opened.page.evaluate(LETTERS)
     assert letters is None or 55 < letters <= 75  # a paragraph's last line is seldom full
     opened.page.emulate_media(color_scheme="dark")

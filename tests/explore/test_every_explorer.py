@@ -58,7 +58,9 @@ def test_stand_in_is_complete(explorer):
     text = " ".join(tree.itertext())
     assert explorer.look_for in text
     assert explorer.board.text in text
-    assert ("moves on a page with JavaScript" if explorer.live else "open this notebook in JupyterLab") in text
+    assert (
+        "moves on a page with JavaScript" if explorer.live else "open this notebook in JupyterLab"
+    ) in text
     assert page.isascii() or "π" in page or "·" in page
     for d in re.findall(r' d="([^"]*)"', page):
         assert "." not in d  # whole units
