@@ -169,7 +169,7 @@ def test_examples_of_the_docstrings_are_true_in_pyodide(in_pyodide):
     result = in_pyodide(EXAMPLES)
     assert result["broken"] == []
     assert result["tried"] > 200
-    # Of some 700 those that need what Pyodide is not given here: networkx, trimesh, shapely, pandas, SVG parts.
+    # Those that need what Pyodide is not given here: networkx, trimesh, shapely, pandas, SVG parts.
     assert 0 < result["missing"] < 40
 
 
