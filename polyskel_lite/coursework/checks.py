@@ -14,6 +14,7 @@ import contextlib
 import copy
 import hashlib
 import importlib
+import inspect
 import io
 import os
 import signal
@@ -21,7 +22,7 @@ import sys
 import textwrap
 import threading
 from collections.abc import Callable, Iterator
-from types import CodeType, FunctionType, ModuleType
+from types import CodeType, FrameType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -186,6 +187,28 @@ def same_polygon(value: Any, wanted: Any, size: float = 1.0) -> bool:
     return a.shape == b.shape and any(near(a, turned, size) for turned in turns)
 
 
+def halved(ring: Any, most: int) -> tuple[int | None, np.ndarray]:
+    """Halve sides that are not strictly Gabriel, all of a round at once: after how many rounds there is none.
+
+    The number is None if `most` rounds, or 400 samples, are not enough. `guarded` calls cannot get here.
+
+    >>> halved([(0, 0), (8, 0), (6, 3), (2, 3)], 9)[0], halved([(0, 0), (2, 0), (1, 1)], 9)[0]
+    (1, None)
+    """
+    at = np.array(ring, dtype=float)
+    for done in range(most + 1):
+        following, own = np.roll(at, -1, axis=0), np.arange(len(at))
+        under = ((at[:, None] - at) * (following[:, None] - at)).sum(axis=2)
+        under[own, own] = under[own, (own + 1) % len(at)] = np.inf
+        bad = np.flatnonzero(under.min(axis=1) <= 0)
+        if len(bad) == 0:
+            return done, at
+        if len(at) > 400:
+            break
+        at = np.insert(at, bad + 1, (at[bad] + following[bad]) / 2, axis=0)
+    return None, at
+
+
 def secret_rng(assignment: str, default: int) -> np.random.Generator:
     """Random numbers for hidden checks, from the teacher's secret; without one from `default`.
 
@@ -212,9 +235,9 @@ def answer(name: str) -> Any:
 def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = True) -> Callable[..., Any]:
     """The notebook's function of this name, called with copies, in limited time, with a sentence for errors.
 
-    With ``library=False`` it may not call `polyskel_lite`, with names only these functions of it. That is a
-    hint to who has misread the task: who wants to can get round it. What a call writes on stderr is dropped:
-    a gradebook takes it for an error.
+    With ``library=False`` it may not call `polyskel_lite`, with names only these functions of it and all
+    classes, however they were imported. That is a hint to who has misread the task: who wants to can get
+    round it. What a call writes on stderr is dropped: a gradebook takes it for an error.
 
     >>> def double(numbers):
     ...     numbers.extend(numbers)
@@ -233,7 +256,6 @@ def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = Tr
         need(not used, f"{name} uses {', '.join(used)} of the library. Write it yourself, with NumPy.")
 
     seconds *= float(os.environ.get(PATIENCE, 1))
-    allowed = set(psl.__all__ if library is True else library or ())
 
     def call(*args: Any) -> Any:
         copies, printed = copy.deepcopy(args), _Short()
@@ -241,14 +263,16 @@ def guarded(name: str, seconds: float = 10, library: bool | tuple[str, ...] = Tr
             with (
                 contextlib.redirect_stdout(printed),
                 contextlib.redirect_stderr(io.StringIO()),
-                _library_without(set(psl.__all__) - allowed),
                 _limit(seconds),
+                _only(library, args),
             ):
                 return function(*copies)
         except _TooLong:
             sentence = f"was not ready after {seconds:g} seconds. Is there a loop that never ends?"
         except NotImplementedError:
             sentence = "is not written yet."
+        except Wrong as error:
+            sentence = str(error)
         except (Exception, SystemExit) as error:
             sentence = f"stopped with {type(error).__name__}: {error}"
         finally:
@@ -292,23 +316,47 @@ def _of_the_library(function: Any) -> Iterator[str]:
         for name in code.co_names:
             value = seen.get(name)
             home = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None)
-            if str(home).split(".")[0] == psl.__name__ or name == psl.__name__:
+            if psl.__name__ in (str(home).split(".")[0], name.split(".")[0]):
                 yield name
 
 
 @contextlib.contextmanager
-def _library_without(names: set[str]) -> Iterator[None]:
-    """Functions of the front door refuse to be called: for what the code does not show, as getattr."""
+def _only(library: bool | tuple[str, ...], args: tuple) -> Iterator[None]:
+    """Refuse calls into the library but the allowed ones: by what runs, since names can be anything.
 
-    def refuse(*_: Any, **__: Any) -> None:
-        raise Wrong("it calls what it should do of the library. Write it yourself, with NumPy.")
+    What an allowed function or a function among `args` calls itself is its own affair.
+    """
+    if library is True:
+        yield
+        return
+    trusted = {sys._getframe().f_code, *(getattr(thing, "__code__", None) for thing in args)}
+    trusted |= {inspect.unwrap(getattr(psl, name)).__code__ for name in library or ()}
+    refused, within = [], None
+    sentence = "calls what it should do of the library: {}. Write it yourself, with NumPy."
 
-    kept = {name: getattr(psl, name) for name in names if isinstance(getattr(psl, name), FunctionType)}
-    vars(psl).update(dict.fromkeys(kept, refuse))
+    def watch(frame: FrameType, event: str, _: Any) -> None:
+        nonlocal within
+        if within is not None:
+            within = None if event == "return" and frame is within else within
+        elif event == "call":
+            code, home = frame.f_code, str(frame.f_globals.get("__name__"))
+            function = "." not in code.co_qualname  # not a method: methods of classes come with the classes
+            foreign = home.split(".")[0] == psl.__name__ and (function or library is False)
+            if code in trusted:
+                within = frame
+            elif foreign and (function or not home.startswith(__package__)):  # this module's timer may run
+                refused.append(code.co_name)
+                raise Wrong(sentence.format(code.co_name))
+            elif home.split(".")[0] == psl.__name__:
+                within = frame
+
+    before = sys.getprofile()
+    sys.setprofile(watch)
     try:
         yield
     finally:
-        vars(psl).update(kept)
+        sys.setprofile(before)
+    need(not refused, sentence.format(*refused[:1] or "-"))  # where the answer caught the exception
 
 
 @contextlib.contextmanager
