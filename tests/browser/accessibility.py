@@ -19,8 +19,8 @@ ALIKE = """() => {
         seen.add(look);
     }
 }"""
-# The rule on contrast takes most of the time: it looks at the first of all texts of one colour, size, name and
-# ground; how faded they and what is around them are, counts too.
+# The rule on contrast takes most of the time. It looks at the first of all texts of one colour, size, name
+# and ground; how faded they and what is around them are, counts too.
 FIRST = """() => {
     const seen = new Set(), words = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
     for (const one of document.querySelectorAll("[data-first]")) delete one.dataset.first;
