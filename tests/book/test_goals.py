@@ -31,11 +31,11 @@ NUMBERS = {
 }
 CHAPTERS = [name for name in NUMBERS if re.match(r"0|A_|B_", name)]
 #: What can be watched. To know, to see, to understand and to learn cannot.
-VERBS = """
-build check choose compare compute count decide derive draw estimate explain find follow look make
-mark measure name order place predict prove read rebuild refute remove repair run show state test
-translate turn write
-""".split()
+VERBS = re.compile(
+    r"(build|check|choose|compare|compute|count|decide|derive|draw|estimate|explain|find|follow|"
+    r"look|make|mark|measure|name|order|place|predict|prove|read|rebuild|refute|remove|repair|"
+    r"run|show|state|test|translate|turn|write) "
+)
 LEVELS = ("read off", "compute", "code", "code: debug", "code: order the lines", "prove or refute", "open")
 TOP = re.compile(r"^- \*\*Goals:\*\*\n((?:  - .*(?:\n    .*)*\n)+)", re.M)
 BOX = re.compile(r"^(`{3,})\{admonition\} You can now …\n:class: tip\n\n?((?:.*\n)*?)\1$", re.M)
@@ -98,7 +98,7 @@ class TestGoalsOfAChapter:
         assert list(found) == [f"G{NUMBERS[chapter]}.{k}" for k in range(1, len(found) + 1)]
         assert 2 <= len(found) <= 6
         for number, words in found.items():
-            assert words.split()[0] in VERBS, f"{number} {words}"
+            assert VERBS.match(words), f"{number} {words}"
             assert not re.search(r"\b(know|understand|learn|see)\b", words), f"{number} {words}"
 
     def test_the_box_at_the_end_says_the_same_and_names_an_exercise(self, chapter):
