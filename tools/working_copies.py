@@ -98,6 +98,7 @@ class Chapter:
     book: Book
     name: str
     cited: set[str] = field(default_factory=set)
+    checks: int = 0
 
     def link(self, doc: str, words: str) -> str:
         """Words, linked where they lead to another chapter."""
@@ -164,7 +165,8 @@ class Chapter:
         if kind == "predict":
             return question(title, body)
         if kind == "check":
-            return self_check(title, body)
+            self.checks += 1
+            return self_check(self.checks, title, body)
         if kind == "dropdown":
             return folded(title, body)
         if kind == "solution":
@@ -251,12 +253,12 @@ def question(title: str, body: str) -> str:
     )
 
 
-def self_check(title: str, body: str) -> str:
+def self_check(number: int, title: str, body: str) -> str:
     """A question after a section: its answers as a list, and folded which of them are right and why."""
     found = CHECK["choices"](body)
     listed = "\n".join(f"- {answer}" for _, answer, _ in found)
     told = [f"- {answer}: **{'yes' if mark == 'x' else 'no'}.** {why}" for mark, answer, why in found]
-    return f"**Check yourself. {title}**\n\n{listed}\n\n{folded('Which, and why', chr(10).join(told))}"
+    return f"**Check {number}. {title}**\n\n{listed}\n\n{folded('Which, and why', chr(10).join(told))}"
 
 
 def copies(doctrees: Path) -> dict[str, str]:

@@ -316,7 +316,7 @@ def test_a_page_has_a_group_of_answers_of_which_one_is_open_at_a_time(tmp_path):
     page, complaints = build(tmp_path, PAGE)
     assert complaints == ""
     first, second = re.findall(r"<fieldset.*?</fieldset>", page, re.S)
-    assert first.startswith('<fieldset class="psl-check" id="check-1"><legend>Check yourself</legend>')
+    assert first.startswith('<fieldset class="psl-check" id="check-1"><legend>Check 1</legend>')
     assert re.findall(r'<details name="([\w-]+)" class="(\w+)">', first) == [
         ("check-1", "wrong"),
         ("check-1", "right"),

@@ -40,7 +40,7 @@ def test_a_question_is_a_list_and_a_folded_answer(copies, name):
 @pytest.mark.parametrize("name", CHAPTERS)
 def test_a_self_check_is_a_list_and_folded_reasons(copies, name):
     source = text(json.loads((ROOT / "notebooks" / name).read_text(encoding="utf-8")))
-    checks = r"^\*\*Check yourself\. .*\?\*\*\n\n(?:- (?!\[).*\n){2,}\n"
+    checks = r"^\*\*Check \d+\. .*\?\*\*\n\n(?:- (?!\[).*\n){2,}\n"
     reasons = (
         r"<details><summary>Which, and why</summary>\n\n((?:- .*: \*\*(?:yes|no)\.\*\* .*\n){2,})\n</details>"
     )
