@@ -41,7 +41,7 @@ TOP = re.compile(r"^- \*\*Goals:\*\*\n((?:  - .*(?:\n    .*)*\n)+)", re.M)
 BOX = re.compile(r"^(`{3,})\{admonition\} You can now …\n:class: tip\n\n?((?:.*\n)*?)\1$", re.M)
 GOAL = re.compile(r"(G[\w.]+\.\d+) (\w.*)", re.S)
 TIED = re.compile(r"\*\*(G[\w.]+\.\d+)\*\* (.+?): (\{ref\}.*)", re.S)
-EXERCISE = re.compile(r"^`{3,}\{exercise\} (.+) \((.+), (\d+) minutes\)\n:label: (\S+)", re.M)
+EXERCISE = re.compile(r"^`{3,}\{exercise\} (.+) · (.+) · (\d+) minutes\n:label: (\S+)", re.M)
 
 
 def prose(chapter: str, folder: Path = NOTEBOOKS) -> str:
