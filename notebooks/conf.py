@@ -183,7 +183,8 @@ def changed_house(app, env, added, changed, removed):
     code = [ROOT / "tools" / "house.py", *(ROOT / "polyskel_lite").rglob("*.py")]
     code += {path.parent for path in code}  # a file that was taken away
     read = env.all_docs.get("house", 0) / 1e6  # kept in microseconds
-    return ["contents", "teaching_map", *(["house"] if any(path.stat().st_mtime > read for path in code) else [])]
+    house = ["house"] if any(path.stat().st_mtime > read for path in code) else []
+    return ["contents", "teaching_map", *house]
 
 
 def fill_the_teachers_part(app, docname, source):

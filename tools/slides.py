@@ -20,13 +20,14 @@ from bs4 import BeautifulSoup, Comment, Tag
 ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "slides from here", "slides up to here"
 FORMULAS = re.compile(r"<script>window\.MathJax = .*?</script>", re.S)
+TITLE = re.compile(r"<article.*?<h1>(.*?)<", re.S)
 SHEETS = re.compile(r'<link[^>]*rel="stylesheet"[^>]*>')
 #: What makes a slide, by its classes; what else stands in a tagged cell is for readers.
 PARTS = ("definition", "theorem", "proposition", "property", "lemma", "algorithm", "psl-predict", "psl-check")
 
 
 class Deck(NamedTuple):
-    """A meeting: its number, its title, the question of the day, and the chapters that its slides are from."""
+    """A meeting: its number, its title, the question of the day, and the chapters with its slides."""
 
     number: int
     title: str
@@ -47,7 +48,7 @@ DECKS = (
 
 
 def mark(notebook: dict) -> dict:
-    """A notebook with comments around each Markdown cell that is tagged: pages know tags of code cells only."""
+    """A notebook with comments around each tagged text: pages know the tags of code cells only."""
     for cell in notebook["cells"]:
         if cell["cell_type"] == "markdown" and "slide" in cell["metadata"].get("tags", []):
             before, after = (f"```{{raw}} html\n<!-- {words} -->\n```" for words in (BEGIN, END))
@@ -66,17 +67,14 @@ def found(page: Path) -> Iterator[tuple[str, Tag, str]]:
     for node in article(page).descendants:
         if isinstance(node, Comment) and str(node).strip() in {BEGIN, END}:
             tagged = str(node).strip() == BEGIN
-        if not isinstance(node, Tag) or (taken and taken in node.parents):
+        if not isinstance(node, Tag) or (taken and any(parent is taken for parent in node.parents)):
             continue
         if re.fullmatch("h[1-3]", node.name):
             heading = node.decode_contents()
         if node.name == "section" and node.get("id"):
             place = node["id"]
-        names = set(node.get("class", []))
-        in_cell = any("tag_slide" in parent.get("class", []) for parent in node.parents)
-        picture = in_cell and node.name == "figure"
-        table = node.name == "table" and (tagged or in_cell)
-        if picture or table or (tagged and names.intersection(PARTS)):
+        is_part = tagged and (node.name == "table" or set(node.get("class", [])).intersection(PARTS))
+        if is_part or (node.name in {"figure", "table"} and node.find_parent(class_="tag_slide")):
             taken = node
             yield heading, node, node.get("id") or place
 
@@ -91,9 +89,10 @@ def slide(page: str, heading: str, part: Tag, place: str) -> str:
         inner.name = "div"
     for folded in part.select("details[name]"):
         folded["name"] = f"{page}-{folded['name']}"
-    for node in [part, *part.find_all(id=True)]:
-        if node.get("id"):
-            node["id"] = f"{page}-{node['id']}"
+    for inner in part.find_all(id=True):  # only the parts themselves are linked to
+        del inner["id"]
+    if part.get("id"):
+        part["id"] = f"{page}-{part['id']}"
     for node in [part, *part.select("[data-opens], .psl-predict")]:
         if "psl-predict" in node.get("class", []):
             node["data-opens"] = "none"
@@ -111,10 +110,9 @@ def slide(page: str, heading: str, part: Tag, place: str) -> str:
 
 def slides(deck: Deck, book: Path) -> list[str]:
     """The slides of a deck, the title first."""
-    pages = " · ".join(
-        f'<a href="../{name}.html">{escape(article(book / f"{name}.html").find("h1").find(string=True).strip())}</a>'
-        for name in deck.chapters
-    )
+    texts = {name: (book / f"{name}.html").read_text(encoding="utf-8") for name in deck.chapters}
+    links = (f'<a href="../{name}.html">{TITLE.search(text)[1]}</a>' for name, text in texts.items())
+    pages = " · ".join(links)
     first = (
         f'<section class="first"><h1>{deck.number}. {escape(deck.title)}</h1>\n'
         f'<p class="asked">{escape(deck.question)}</p>\n<p>{pages}</p>\n'
@@ -148,9 +146,11 @@ def page(deck: Deck, book: Path, questions: str) -> str:
 <script defer src="../_static/slides.js"></script>
 </head>
 <body>
-<main class="reveal bd-content">
+<main>
+<div class="reveal bd-content">
 <div class="slides">
 {body}
+</div>
 </div>
 </main>
 <script type="module">{questions}</script>
@@ -163,8 +163,10 @@ def write(book: Path, questions: str) -> None:
     """Write all decks; ``questions`` is the module that makes controls of predictions."""
     folder = book / "slides"
     folder.mkdir(exist_ok=True)
+    built = {path.stem for path in book.glob("*.html")}
     for deck in DECKS:
-        (folder / f"{deck.number}.html").write_text(page(deck, book, questions), encoding="utf-8")
+        if built.issuperset(deck.chapters):  # a book may be a part of this one
+            (folder / f"{deck.number}.html").write_text(page(deck, book, questions), encoding="utf-8")
 
 
 if __name__ == "__main__":

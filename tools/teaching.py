@@ -70,9 +70,10 @@ def chapters() -> list[str]:
 
 
 def section(name: str) -> str:
-    """What a chapter is called in a table: 2.1, 4.3, A.2."""
+    """What a chapter is called in a table: 2.1, 4.3, A.2, B."""
     title = re.search(r"^# (.+)", cells(NOTEBOOKS / f"{name}.ipynb"), re.M)[1]
-    return re.sub(r"^Appendix ", "", title)
+    appendix = re.match(r"(A_\d|B)_", name)
+    return appendix[1].replace("_", ".") if appendix else title.split()[0]
 
 
 def task_titles() -> dict[str, str]:
@@ -103,7 +104,7 @@ def misconceptions() -> str:
     rows = ["| | taken for true, and what refutes it | self-checks by chapter | task |", "|---|---|---|---|"]
     for mark, one in known.items():
         places = "; ".join(
-            f"{{doc}}`{name}`: "
+            f"{{doc}}`{section(name)} <{name}>`: "
             + ", ".join(f'<a href="{name}.html#check-{number}">{number}</a>' for number in numbers)
             for name, numbers in shown.get(mark, {}).items()
         )
@@ -133,21 +134,19 @@ def concept_map() -> str:
         for column, notion in enumerate(notions)
         if notion
     }
+    line, tip = 'fill="none" stroke="currentColor" stroke-width="1.5"', 'marker-end="url(#map-tip)"'
     drawn = []
     for start, end, _ in ARROWS:
         (x, y), (u, v) = place[start], place[end]
         # Where the line leaves one box and meets the other one.
         part = min(wide / 2 / abs(u - x) if u != x else 1, high / 2 / abs(v - y) if v != y else 1)
         dx, dy = part * (u - x), part * (v - y)
-        drawn.append(
-            f'<line x1="{x + dx:.0f}" y1="{y + dy:.0f}" x2="{u - dx:.0f}" y2="{v - dy:.0f}" stroke="currentColor" '
-            'stroke-width="1.5" marker-end="url(#map-tip)"/>'
-        )
+        drawn.append(f'<path d="M{x + dx:.0f} {y + dy:.0f}L{u - dx:.0f} {v - dy:.0f}" {line} {tip}/>')
     for name, number in (notion for notions in NOTIONS for notion in notions if notion):
         x, y = place[name]
+        box = f'x="{x - wide / 2:.0f}" y="{y - high / 2:.0f}" width="{wide}" height="{high}" rx="6"'
         drawn.append(
-            f'<rect x="{x - wide / 2:.0f}" y="{y - high / 2:.0f}" width="{wide}" height="{high}" rx="6" fill="none" '
-            f'stroke="currentColor"/><text x="{x:.0f}" y="{y - 3:.0f}">{escape(name)}</text>'
+            f'<rect {box} {line}/><text x="{x:.0f}" y="{y - 3:.0f}">{escape(name)}</text>'
             f'<text x="{x:.0f}" y="{y + 20:.0f}" font-size="16">{number}</text>'
         )
     size = f"0 0 {2 * across + wide + 2} {(len(NOTIONS) - 1) * down + high + 2}"
@@ -161,7 +160,9 @@ font-family="inherit" font-size="20" text-anchor="middle" fill="currentColor">
 <defs><marker id="map-tip" viewBox="0 0 10 10" refX="10" refY="5" markerWidth="9" markerHeight="9"
 orient="auto-start-reverse"><path d="M0 0L10 5L0 10z" fill="currentColor"/></marker></defs>
 {chr(10).join(drawn)}
-</svg><figcaption>Twenty notions, each with its section. An arrow is a sentence of the list below.</figcaption></figure>
+</svg>
+<figcaption>Twenty notions, each with its section. An arrow is a sentence of the list below.</figcaption>
+</figure>
 ```
 
 ````{{dropdown}} The arrows as sentences
