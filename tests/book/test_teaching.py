@@ -129,6 +129,15 @@ def test_the_index_links_to_everything():
     assert [int(n) for n in re.findall(r"slides/(\d)\.html", index)] == list(range(1, 9))
 
 
+def test_the_message_in_the_handout_is_one_of_a_check():
+    handout = (NOTEBOOKS / "handout.ipynb").read_text(encoding="utf-8")
+    said = re.search(r"> Not yet: .* yours is True\. (.*?\.) ", handout)[1]
+    assert said in (NOTEBOOKS / "course" / "a2_gabriel_dual.ipynb").read_text(encoding="utf-8")
+    words = (ROOT / "polyskel_lite" / "coursework" / "checks.py").read_text(encoding="utf-8")
+    assert "calls what it should do of the library" in words
+    assert "was not ready after" in words
+
+
 # --- slides -------------------------------------------------------------------------------------------
 
 PAGE = """<article><h1>Title<a class="headerlink" href="#t">#</a></h1>
