@@ -41,7 +41,7 @@ TOP = re.compile(r"^- \*\*Goals:\*\*\n((?:  - .*(?:\n    .*)*\n)+)", re.M)
 BOX = re.compile(r"^(`{3,})\{admonition\} You can now …\n:class: tip\n\n?((?:.*\n)*?)\1$", re.M)
 GOAL = re.compile(r"(G[\w.]+\.\d+) (\w.*)", re.S)
 TIED = re.compile(r"\*\*(G[\w.]+\.\d+)\*\* (.+?): (\{ref\}.*)", re.S)
-EXERCISE = re.compile(r"^`{3,}\{exercise\} (.+) \((.+), (\d+) minutes\)\n:label: (\S+)", re.M)
+EXERCISE = re.compile(r"^`{3,}\{exercise\} (.+) · (.+) · (\d+) minutes\n:label: (\S+)", re.M)
 
 
 def prose(chapter: str, folder: Path = NOTEBOOKS) -> str:
@@ -140,8 +140,10 @@ def test_wrong_answers_given_often_are_answered():
     """A second fold under a solution: what people write there, and why it is not so."""
     text = "".join(map(prose, NUMBERS))
     folds = re.findall(
-        r"^`{3,}\{dropdown\} Wrong answers to \{ref\}`([\w-]+)`\n((?:.*\n)+?)`{3,}$", text, re.M
+        r"^:{3,}\{dropdown\} Wrong answers to \{ref\}`([\w-]+)`\n((?:.*\n)+?):{3,}$", text, re.M
     )
+    # A fence of backticks may have no backtick in its first line: it would swallow what follows.
+    assert not re.search(r"^`{3,}\{dropdown\}.*`", text, re.M)
     known = {label for chapter in NUMBERS for *_, label in exercises(chapter)}
     assert len({label for label, _ in folds} & known) == len(folds) >= 20
     assert all(len(lines(body)) >= 1 and "- " in body for _, body in folds)

@@ -58,6 +58,9 @@ TIGHT = """(letters) => {
     if (document.documentElement.scrollWidth > innerWidth + 1) tight.push("the page scrolls sideways");
     return tight;
 }"""
+# What a wide page has around its text is the theme's and the same on all: a few stand for it. The text itself
+# has the rules on structure on the phone.
+ALIKE_WHEN_WIDE = set(pages()) - {"index", "01_introduction", "claims", "search", "api_shapes"}
 A4 = {"width": 680, "height": 1009}  # in pixels, within margins of 15 mm
 LETTER = 1.45 * 9 * 120 / 72  # height of "(a)" in a picture of its full size, in pixels
 
@@ -66,7 +69,7 @@ LETTER = 1.45 * 9 * 120 / 72  # height of "(a)" in a picture of its full size, i
 def test_page_from_disk(visit, book, name):
     opened = visit(book.as_uri(), f"{name}.html", color_scheme="light")
     assert opened.page.evaluate(LOST) == []
-    assert findings(opened.page) == []
+    assert findings(opened.page, COLOURS if name in ALIKE_WHEN_WIDE else None) == []
     assert (
         name == "search" or opened.page.locator("article h1").count() == 1
     )  # the theme's, outside the article
