@@ -120,23 +120,23 @@ def draw_skeleton_3d(
     seen = np.isfinite(nodes).all(axis=1)
     if box is not None:
         seen &= in_box(nodes, box)
-    color = _color_of(values, limits, look.color)
+    colors = _colors_of(values, limits, look.color)
     cells = [p for p in skeleton.polygons if seen[p].all()]
     if cells:
-        # Newell's normal: that of the mean plane, safe for repeated vertices (cospherical samples).
-        normals = np.array([np.cross(nodes[p], nodes[np.roll(p, -1)]).sum(axis=0) for p in cells])
-        tint = np.array([color(p) for p in cells]) * shades(normals, 0.62)
-        flat = {"facecolors": tint, "edgecolors": tint * 0.75, "linewidths": 0.25, "zorder": look.zorder}
         # All of one length, by repeating the last corner: matplotlib fills others up with memory that it
         # has not set, and may warn of overflow there.
         longest = max(map(len, cells))
-        even = [[*p, *[p[-1]] * (longest - len(p))] for p in cells]
-        ax.add_collection3d(Poly3DCollection(nodes[even], **flat))
+        corners = nodes[[[*p, *[p[-1]] * (longest - len(p))] for p in cells]]
+        # Newell's normal: that of the mean plane, safe for repeated vertices (cospherical samples).
+        normals = np.cross(corners, np.roll(corners, -1, axis=1)).sum(axis=1)
+        tint = colors(cells) * shades(normals, 0.62)
+        flat = {"facecolors": tint, "edgecolors": tint * 0.75, "linewidths": 0.25, "zorder": look.zorder}
+        ax.add_collection3d(Poly3DCollection(corners, **flat))
     edges = skeleton.edges[free_edges(skeleton)] if wires == "free" else skeleton.edges
     edges = edges[seen[edges].all(axis=1)]
     if wires != "none" and len(edges):
         look_of = {
-            "colors": [color(edge) for edge in edges],
+            "colors": colors(edges),
             "linewidths": look.linewidth if wires == "free" else 0.3,
             "zorder": look.zorder + 0.1,
             "capstyle": "round",
@@ -171,11 +171,11 @@ def draw_color_bar(ax: Axes, limits: tuple[float, float], label: str, **style) -
     return ax
 
 
-def _color_of(values, limits, plain: str):
-    """A function from vertex indices to a colour."""
+def _colors_of(values, limits, plain: str):
+    """A function from the vertices of polygons or edges to a colour for each."""
     if values is None:
-        return lambda vertices: np.array(to_rgb(plain))
+        return lambda parts: np.tile(to_rgb(plain), (len(parts), 1))
     values = np.asarray(values, dtype=float)
     low, high = (values.min(), values.max()) if limits is None else limits
     scale = Normalize(low, high, clip=True)
-    return lambda vertices: np.array(RAMP(scale(values[vertices].mean()))[:3])
+    return lambda parts: RAMP(scale([values[vertices].mean() for vertices in parts]))[:, :3]
