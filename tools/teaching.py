@@ -101,7 +101,7 @@ def misconceptions() -> str:
     for mark, name, number in checks():
         shown.setdefault(mark, {}).setdefault(name, []).append(number)
     titles = task_titles()
-    rows = ["| id | taken for true, and what refutes it | self-checks by chapter | task |", "|---|---|---|---|"]
+    rows = ["| id | taken for true, and why it is not | self-checks by chapter | task |", "|---|---|---|---|"]
     for mark, one in known.items():
         places = "; ".join(
             f"{{doc}}`{section(name)} <{name}>`: "
