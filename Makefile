@@ -59,7 +59,7 @@ browser: book $(VENV)/.test  ## every page, the viewer and the explorers in Chro
 	@echo "Pages, viewer and explorers in Chromium ..."
 	@BOOK="$(CURDIR)/_build/html" $(BIN)/python -m pytest -n $(JOBS) --dist loadgroup tests/browser
 
-course: $(VENV)/.course  ## write the assignments for students and for you to _course/; ASSIGNMENT=a2, SECRET=word
+course: book $(VENV)/.course  ## write assignments, slides, handout and guide to _course/; ASSIGNMENT=a2, SECRET=word
 	@$(BIN)/python tools/course.py --assignment "$(ASSIGNMENT)" --secret "$(SECRET)"
 
 # It runs strangers' code, and nothing keeps that in: see tools/grading.py.

@@ -87,6 +87,7 @@ nb_mime_priority_overrides = [
 nb_ipywidgets_js = {}
 # Formulas as text, and as MathML for who cannot see them; without the menu that most of MathJax is for.
 mathjax3_config = {"loader": {"load": ["input/tex", "output/chtml", "a11y/assistive-mml"]}}
+SLIDES = runpy.run_path(str(ROOT / "tools" / "slides.py"))
 # By its path: the book needs no library to be built.
 BUNDLE = runpy.run_path(str(ROOT / "polyskel_lite" / "explore" / "bundle.py"))
 VIEWER = BUNDLE["one_module"]()
@@ -182,13 +183,28 @@ def changed_house(app, env, added, changed, removed):
     code = [ROOT / "tools" / "house.py", *(ROOT / "polyskel_lite").rglob("*.py")]
     code += {path.parent for path in code}  # a file that was taken away
     read = env.all_docs.get("house", 0) / 1e6  # kept in microseconds
-    return ["contents", *(["house"] if any(path.stat().st_mtime > read for path in code) else [])]
+    house = ["house"] if any(path.stat().st_mtime > read for path in code) else []
+    return ["contents", "teaching_map", *house]
+
+
+def fill_the_teachers_part(app, docname, source):
+    """Put tables of the whole course, read from chapters and assignments, into the map for teachers."""
+    if docname == "teaching_map":
+        made = runpy.run_path(str(ROOT / "tools" / "teaching.py"))
+        source[0] = re.sub(r"```\{psl-teaching\} (\w+)\n```", lambda match: made[match[1]](), source[0])
+
+
+def mark_slides(app, docname, source):
+    """Put comments around the texts that are slides (see tools/slides.py)."""
+    if '"slide"' in source[0]:
+        source[0] = json.dumps(SLIDES["mark"](json.loads(source[0])))
 
 
 def make_light(app, error):
-    """What a page does not show is not fetched with it (see tools/lighten.py)."""
+    """What a page does not show is not fetched with it (see tools/lighten.py); then slides of the pages."""
     if error is None and app.builder.name == "html":
         runpy.run_path(str(ROOT / "tools" / "lighten.py"))["lighten"](Path(app.outdir))
+        SLIDES["write"](Path(app.outdir), BUNDLE["page_module"]())
 
 
 def setup(app):
@@ -196,6 +212,8 @@ def setup(app):
     app.connect("source-read", draw_the_house)
     app.connect("source-read", lay_out_the_contents)
     app.connect("source-read", fill_the_reference)
+    app.connect("source-read", fill_the_teachers_part)
+    app.connect("source-read", mark_slides)
     app.connect("env-get-outdated", changed_house)
     app.connect("html-page-context", say_what_colab_needs)
     app.connect("html-page-context", references_as_list)

@@ -12,6 +12,7 @@ import copy
 import os
 import re
 import secrets
+import shutil
 import sys
 from pathlib import Path
 
@@ -21,6 +22,8 @@ from nbformat import NotebookNode
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "notebooks" / "course"
 COURSE = ROOT / "_course"
+#: With the slides, the handout and the guide; the whole book, since they link to it and share its pictures.
+BOOK = ROOT / "_build" / "html"
 STUBS = {"code": "# YOUR CODE HERE\nraise NotImplementedError()", "markdown": "YOUR ANSWER HERE"}
 MARK = re.compile(r"\s*#+ (BEGIN|END) (SOLUTION|HIDDEN TESTS)\s*")
 
@@ -165,6 +168,9 @@ def main() -> None:
         except ValueError as error:
             sys.exit(f"Not released. {error}")
     print(f"For students: {given.to / 'release'}\nFor you, with solutions: {given.to / 'instructor'}")
+    if BOOK.exists():
+        shutil.copytree(BOOK, given.to / "book", dirs_exist_ok=True)
+        print(f"Slides, handout and the guide: {given.to / 'book' / 'teaching.html'}")
 
 
 if __name__ == "__main__":

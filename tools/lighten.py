@@ -168,7 +168,9 @@ def used(sheet: str, words: set[str]) -> str:
 
 def lighten(book: Path) -> None:
     """Make the pages and the style sheets of a built book light."""
-    pages = [page for page in sorted(book.rglob("*.html")) if "_static" not in page.parts]
+    pages = [
+        page for page in sorted(book.rglob("*.html")) if not {"_static", "slides"}.intersection(page.parts)
+    ]
     words, plain = set[str](), plain_tokens(book)
     for page in pages:
         text = page.read_text(encoding="utf-8")
@@ -177,7 +179,7 @@ def lighten(book: Path) -> None:
             page.write_text(lighter, encoding="utf-8")
         words.update(re.findall(r"[\w-]+", lighter))
     for script in book.glob("_static/**/*.js"):
-        if "mathjax" not in script.parts and script.name != "fontawesome.js":
+        if not {"mathjax", "reveal"}.intersection(script.parts) and script.name != "fontawesome.js":
             words.update(re.findall(r"[\w-]+", script.read_text(encoding="utf-8")))
     for sheet in book.glob("_static/**/*.css"):
         if not sheet.stem.endswith(".light"):

@@ -30,7 +30,7 @@ PLACES = """(wanted) => {
 }"""
 
 
-SHOW_NOTHING = {"teaching", "project_data"}  # pages to teach with begin with words
+SHOW_NOTHING = {"teaching_misconceptions", "project_data", "handout"}  # pages to teach with begin with words
 
 
 def chapters() -> list[str]:
