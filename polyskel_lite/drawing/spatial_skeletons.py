@@ -178,4 +178,4 @@ def _colors_of(values, limits, plain: str):
     values = np.asarray(values, dtype=float)
     low, high = (values.min(), values.max()) if limits is None else limits
     scale = Normalize(low, high, clip=True)
-    return lambda parts: RAMP(scale([values[vertices].mean() for vertices in parts]))[:, :3]
+    return lambda parts: RAMP(scale(np.array([values[vertices].mean() for vertices in parts])))[:, :3]
