@@ -311,13 +311,3 @@ def test_where_the_two_answers_for_a_part():
     assert worth_of_the_tip(44) > np.pi > worth_of_the_tip(45.5)
     assert_said("explore", "part at about $45°$, a little more if the threshold is lower")
     assert worth_of_the_tip(50) > 0.9 * np.pi > worth_of_the_tip(53)
-
-
-def test_solution_that_no_cell_runs():
-    """Exercise ex-claims-code: its solution is shown in a folded box, as text."""
-    cells = json.loads((NOTEBOOKS / "claims.ipynb").read_text(encoding="utf-8"))["cells"]
-    text = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown")
-    code = re.search(r":label: sol-claims-code.*?```python\n(.*?)```", text, re.S)[1]
-    names = {"np": np, "psl": psl}
-    exec(code, names)
-    assert names["check"]() == "holds"
