@@ -166,13 +166,16 @@ def _rows(value: Any, length: int, name: str) -> set[tuple[int, ...]]:
     except (TypeError, ValueError, OverflowError):
         ok = False
     need(ok, f"{name} should be {thing}, each of them whole, and is {_short(value)}.")
+    mask = bool(rows) and all(isinstance(k, (bool, np.bool_)) for row in rows for k in row)
+    need(not mask, f"{name} should be {thing}, and is True or False for each. Which numbers are they?")
     odd = next((row for row in whole if len(row) != length), None)
     need(odd is None, f"{name} should be {thing}; {odd} is in it.")
     twice = (
         next((row for row in whole if whole.count(row) > 1), None) if len(set(whole)) < len(whole) else None
     )
     same = " ((i, j) and (j, i) are the same)" if length == 2 else ""
-    need(twice is None, f"{name} has {twice} more than once{same}.")
+    shown = twice if length == 2 or twice is None else twice[0]
+    need(twice is None, f"{name} has {shown} more than once{same}.")
     return set(whole)
 
 
