@@ -22,6 +22,8 @@ BEGIN, END = "slides from here", "slides up to here"
 FORMULAS = re.compile(r"<script>window\.MathJax = .*?</script>", re.S)
 TITLE = re.compile(r"<article.*?<h1>(.*?)<", re.S)
 SHEETS = re.compile(r'<link[^>]*rel="stylesheet"[^>]*>')
+#: Width by height; what is narrower gets its caption beside it, not below: the screen is wide.
+TALL = 1.3
 #: What makes a slide, by its classes; what else stands in a tagged cell is for readers.
 PARTS = ("definition", "theorem", "proposition", "property", "lemma", "algorithm", "psl-predict", "psl-check")
 
@@ -100,7 +102,10 @@ def slide(page: str, heading: str, part: Tag, place: str) -> str:
         if not re.match(r"\w+:", node[name]):
             node[name] = f"../{page}.html{node[name]}" if node[name][0] == "#" else f"../{node[name]}"
     for image in part.find_all("img"):
-        del image["loading"]
+        del image["loading"], image["decoding"]  # or a print has empty frames
+    picture = part.find("img") if part.name == "figure" else None
+    if picture and float(picture.get("width", 9)) < TALL * float(picture.get("height", 1)):
+        part["class"] = [*part.get("class", []), "tall"]  # its caption stands beside it
     title = BeautifulSoup(heading, "html.parser")
     for link in title.select("a.headerlink"):
         link.decompose()

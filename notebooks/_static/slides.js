@@ -8,7 +8,7 @@ start();
 async function start() {
   await window.MathJax?.startup?.promise;
   await Reveal.initialize({
-    width: 1280, height: 720, margin: 0.03, center: false, hash: true, slideNumber: "c/t", transition: "none",
+    width: 1280, height: 720, margin: 0.03, center: false, display: "flex", hash: true, slideNumber: "c/t", transition: "none",
     // A key that works a button, a link or a folded answer does not turn the page as well.
     keyboardCondition: (event) => !(["Enter", " "].includes(event.key) && event.target.closest("summary, button, a")),
   });

@@ -57,6 +57,11 @@ def test_a_meeting_has_ninety_minutes_and_all_that_the_teacher_needs(name):
         assert f'Slides: <a href="slides/{name[-1]}.html">' in text
 
 
+def test_every_ticket_has_an_answer():
+    table = GUIDE[GUIDE.index(":name: tab-tickets") : GUIDE.index("## More weeks")]
+    assert re.findall(r"^\| ((?:Day|Meeting) \d) \| \S", table, re.M) == list(MEETINGS)
+
+
 def test_misconceptions_named_in_the_guide_are_known():
     known = tomllib.loads((NOTEBOOKS / "misconceptions.toml").read_text(encoding="utf-8"))
     named = re.findall(r"\((M\d+)\)", GUIDE)
@@ -147,7 +152,8 @@ PAGE = """<article><h1>Title<a class="headerlink" href="#t">#</a></h1>
 </section></div><div class="psl-predict" id="predict-1"><details name="d"></details></div></section>
 <!-- slides up to here --><div class="proof theorem" id="three">no slide</div>
 <div class="cell tag_slide"><figure id="f"><a class="image-reference" href="_images/a.svg"><img loading="lazy"
-src="_images/a.svg" alt="A."/></a></figure></div><div class="cell"><figure id="g"></figure></div></article>"""
+src="_images/a.svg" alt="A." width="500" height="400" decoding="async"/></a></figure></div>
+<div class="cell"><figure id="g"></figure></div></article>"""
 
 
 @pytest.fixture
@@ -174,6 +180,8 @@ def test_slides_are_parts_of_tagged_cells_and_no_prose(slides, tmp_path):
     assert "headerlink" not in text
     assert '<a href="../p.html#two">in the book</a>' in text
     assert "loading" not in text
+    assert "decoding" not in text
+    assert 'class="tall"' in text  # 5 to 4: its caption goes beside it
 
 
 def test_marks_stand_around_tagged_texts_only(slides):

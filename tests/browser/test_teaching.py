@@ -51,6 +51,13 @@ def test_no_slide_is_larger_than_the_screen(visit, book, number):
     assert cut == []
 
 
+def test_what_a_slide_is_about_stands_in_its_middle(visit, book):
+    page = visit(book.as_uri(), "slides/1.html#/3", viewport={"width": 1280, "height": 800}).page
+    page.locator("html[data-ready]").wait_for()
+    box = page.locator("section.present .admonition").bounding_box()
+    assert 350 < box["y"] + box["height"] / 2 < 500
+
+
 def test_the_handout_takes_two_sheets(visit, book):
     page = visit(book.as_uri(), "handout.html").page
     assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(**A4))) == 2
