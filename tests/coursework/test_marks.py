@@ -5,11 +5,21 @@ import pytest
 from marking import marked
 from truth.submissions import SOURCES, SUBMISSIONS
 
+# What a teacher may choose; of a hidden shape one draw in ten may be none.
+SECRETS = ["another group", *(pytest.param(f"group {k}", marks=pytest.mark.slow) for k in range(10))]
+RIGHT = [(name, SOURCES[name]) for name in SOURCES]
+RIGHT += [
+    (f"{told.assignment} {told.about['name']}", course.collected(SOURCES[told.assignment], told.notebook))
+    for told in SUBMISSIONS
+    if not told.about.get("lost")
+]
 
-@pytest.mark.parametrize("name", SOURCES)
-def test_a_source_has_full_marks(name, monkeypatch):
-    monkeypatch.setenv("POLYSKEL_COURSE_SECRET", "another group")
-    found = marked(SOURCES[name])
+
+@pytest.mark.parametrize("secret", SECRETS)
+@pytest.mark.parametrize(("name", "notebook"), RIGHT, ids=[name for name, _ in RIGHT])
+def test_what_is_right_has_full_marks(name, notebook, secret, monkeypatch):
+    monkeypatch.setenv("POLYSKEL_COURSE_SECRET", secret)
+    found = marked(notebook)
     assert [mark for mark in found.marks if mark.points < mark.most] == []
     assert found.taken == []
 
