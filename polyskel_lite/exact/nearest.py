@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -81,7 +83,7 @@ def nearest_facets(facets: np.ndarray, queries: np.ndarray) -> tuple[np.ndarray,
             end = max(begin + 1, int(np.searchsorted(total, done + _CHUNK, side="right")))
             rows = tree.query_ball_point(queries[begin:end], best[begin:end] + reach)
             i = np.repeat(np.arange(begin, end), count[begin:end])
-            j = members[np.concatenate([np.asarray(row, dtype=np.int64) for row in rows])]
+            j = members[np.fromiter(chain.from_iterable(rows), dtype=np.int64)]
             height = np.abs(((queries[i] - facets[j, 0]) * normal[j]).sum(axis=1))
             near = height <= best[i] + 1e-6 * (best[i] + radius[j])
             i, j = i[near], j[near]
