@@ -300,7 +300,7 @@ def solutions_open(page) -> None:
         first.wait_for(state="visible" if opens else "hidden")
 
 
-@pytest.mark.parametrize("name", ["02_1_shapes", "A_2_theorem_3", "claims"])
+@pytest.mark.parametrize("name", ["02_1_shapes", "claims"])
 def test_a_working_copy_runs_from_top_to_bottom(visit, lab, book, name):
     """As `make lab` opens it: no role is left, the console is quiet, no cell fails, the sources stay."""
     sources = {path: path.read_bytes() for path in (ROOT / "notebooks").glob("*.ipynb")}

@@ -85,7 +85,7 @@ def opened(browser, whole_lite):
         assert [url for url in asked if not url.startswith((whole_lite, "data:", "blob:"))] == []
 
 
-@pytest.mark.parametrize("name", ["A_2_theorem_3", "explore", "claims"])
+@pytest.mark.parametrize("name", ["A_2_theorem_3", "claims"])
 def test_a_chapter_runs_in_the_browser(opened, name):
     """Kernel, library, widgets and files from the site alone: every cell runs, none fails, handles move.
 
