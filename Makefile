@@ -66,8 +66,8 @@ course: book $(VENV)/.course  ## write assignments, slides, handout and guide to
 grade: $(VENV)/.course  ## mark the submissions in a folder, FROM=folder: in a container or a throw-away account
 	@$(BIN)/python tools/grading.py $(if $(FROM),"$(FROM)")
 
-course-test: $(VENV)/.test  ## mark through nbgrader, and under ten secrets (three minutes)
-	@$(BIN)/python -m pytest -n $(JOBS) -m slow tests/coursework
+course-test: $(VENV)/.test  ## mark through nbgrader, and under ten secrets (four minutes)
+	@$(BIN)/python -m pytest -m slow tests/coursework
 
 lab: book $(VENV)/.lab  ## open the first chapter in JupyterLab, as a copy that is yours to change
 	@$(BIN)/python tools/working_copies.py _build/lab
