@@ -119,9 +119,9 @@ def goals() -> str:
     for name in chapters():
         for _, listed in BOX.findall(cells(NOTEBOOKS / f"{name}.ipynb")):
             for item in filter(str.strip, re.split(r"^ *- ", listed, flags=re.M)):
-                if found := TIED.fullmatch(" ".join(item.split())):
-                    words = found[2].replace("|", "\\|")
-                    rows.append(f"| **{found[1]}** {words} | {found[3]} |")
+                number, words, shown = TIED.fullmatch(" ".join(item.split())).groups()
+                words = words.replace("|", "\\|")
+                rows.append(f"| **{number}** {words} | {shown} |")
     return "```{table} Goals\n:name: tab-goals\n\n" + "\n".join(rows) + "\n```\n"
 
 

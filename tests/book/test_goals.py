@@ -6,6 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+import teaching
 
 NOTEBOOKS = Path(__file__).resolve().parents[2] / "notebooks"
 NUMBERS = {
@@ -38,15 +39,12 @@ VERBS = re.compile(
 )
 LEVELS = ("read off", "compute", "code", "code: debug", "code: order the lines", "prove or refute", "open")
 TOP = re.compile(r"^- \*\*Goals:\*\*\n((?:  - .*(?:\n    .*)*\n)+)", re.M)
-BOX = re.compile(r"^(`{3,})\{admonition\} You can now …\n:class: tip\n\n?((?:.*\n)*?)\1$", re.M)
 GOAL = re.compile(r"(G[\w.]+\.\d+) (\w.*)", re.S)
-TIED = re.compile(r"\*\*(G[\w.]+\.\d+)\*\* (.+?): (\{ref\}.*)", re.S)
 EXERCISE = re.compile(r"^`{3,}\{exercise\} (.+) · (.+) · (\d+) minutes\n:label: (\S+)", re.M)
 
 
-def prose(chapter: str, folder: Path = NOTEBOOKS) -> str:
-    cells = json.loads((folder / f"{chapter}.ipynb").read_text(encoding="utf-8"))["cells"]
-    return "\n\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown") + "\n"
+def prose(chapter: str) -> str:
+    return teaching.cells(NOTEBOOKS / f"{chapter}.ipynb")
 
 
 def lines(listed: str) -> list[str]:
@@ -62,10 +60,10 @@ def goals(chapter: str) -> dict[str, str]:
 
 def ties(chapter: str) -> dict[str, tuple[str, list[str], list[int], list[str]]]:
     """Of the box at the end, by number: the words, the exercises, the self-checks and the tasks."""
-    ((_, listed),) = BOX.findall(prose(chapter))
+    ((_, listed),) = teaching.BOX.findall(prose(chapter))
     found = {}
     for line in lines(listed):
-        number, words, shown = TIED.fullmatch(line.rstrip(".")).groups()
+        number, words, shown = teaching.TIED.fullmatch(line.rstrip(".")).groups()
         found[number] = (
             words,
             re.findall(r"\{ref\}`([\w-]+)`", shown),
@@ -80,15 +78,6 @@ def ties(chapter: str) -> dict[str, tuple[str, list[str], list[int], list[str]]]
 def exercises(chapter: str) -> list[tuple[str, str, str, str]]:
     """Title, level, minutes and label."""
     return EXERCISE.findall(prose(chapter))
-
-
-def tasks() -> set[str]:
-    """Every task of every assignment, as A2.3."""
-    return {
-        f"A{source.stem[1]}.{number}"
-        for source in (NOTEBOOKS / "course").glob("a?_*.ipynb")
-        for number in re.findall(r"^## (\d+)\. ", prose(source.stem, source.parent), re.M)
-    }
 
 
 @pytest.mark.parametrize("chapter", NUMBERS)
@@ -130,8 +119,7 @@ def test_no_goal_without_a_self_check_and_no_self_check_without_a_goal(chapter):
 
 def test_goals_name_tasks_and_every_task_is_named():
     every = {number: named for chapter in CHAPTERS for number, (*_, named) in ties(chapter).items()}
-    assert {task for named in every.values() for task in named} == tasks()
-    assert len(tasks()) == 36
+    assert {task for named in every.values() for task in named} == set(teaching.task_titles())
     without = [number for number, named in every.items() if not named]
     assert len(without) <= len(every) / 4, without
 
