@@ -169,7 +169,8 @@ def main() -> None:
             sys.exit(f"Not released. {error}")
     print(f"For students: {given.to / 'release'}\nFor you, with solutions: {given.to / 'instructor'}")
     if BOOK.exists():
-        shutil.copytree(BOOK, given.to / "book", dirs_exist_ok=True)
+        shutil.rmtree(given.to / "book", ignore_errors=True)  # pages that the book no longer has
+        shutil.copytree(BOOK, given.to / "book")
         print(f"Slides, handout and the guide: {given.to / 'book' / 'teaching.html'}")
 
 

@@ -29,6 +29,8 @@ def run_cells(sources: list[str], environment: dict[str, str], report: Connectio
     limit_memory()
     for stream in (1, 2):  # what does not go through sys.stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+    for name in [name for name in os.environ if name.startswith("POLYSKEL")]:
+        del os.environ[name]  # of the process that this one was forked from, which may be of an earlier hour
     os.environ.update(environment)
     settings = Config()
     settings.HistoryManager.enabled = False

@@ -70,10 +70,8 @@ def chapters() -> list[str]:
 
 
 def section(name: str) -> str:
-    """What a chapter is called in a table: 2.1, 4.3, A.2, B."""
-    title = re.search(r"^# (.+)", cells(NOTEBOOKS / f"{name}.ipynb"), re.M)[1]
-    appendix = re.match(r"(A_\d|B)_", name)
-    return appendix[1].replace("_", ".") if appendix else title.split()[0]
+    """What a chapter is called in a table, and in the numbers of its goals: 2.1, 3.2c, A.2, B."""
+    return re.search(r"\*\*G([\w.]+)\.\d+\*\*", cells(NOTEBOOKS / f"{name}.ipynb"))[1]
 
 
 def task_titles() -> dict[str, str]:
@@ -161,7 +159,8 @@ font-family="inherit" font-size="20" text-anchor="middle" fill="currentColor">
 orient="auto-start-reverse"><path d="M0 0L10 5L0 10z" fill="currentColor"/></marker></defs>
 {chr(10).join(drawn)}
 </svg>
-<figcaption>Twenty notions, each with its section. An arrow is a sentence of the list below.</figcaption>
+<figcaption>Twenty notions, each with its section of the paper. An arrow is a sentence of the list
+below.</figcaption>
 </figure>
 ```
 

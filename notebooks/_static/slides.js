@@ -1,7 +1,8 @@
 // Slides: light or dark as the book is, formulas first (they need room to be measured), then pages to turn.
 const chosen = localStorage.getItem("theme") ?? "auto";
 const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-document.documentElement.dataset.theme = chosen === "auto" ? (dark ? "dark" : "light") : chosen;
+const paper = new URLSearchParams(location.search).has("print-pdf"); // which is white
+document.documentElement.dataset.theme = paper ? "light" : chosen === "auto" ? (dark ? "dark" : "light") : chosen;
 
 start();
 

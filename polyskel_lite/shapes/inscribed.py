@@ -58,7 +58,9 @@ def largest_inside(points: np.ndarray, facets: np.ndarray) -> Ball:
     best = _grown(boundary, starts[depth.argmax()]) if depth.max() > 0 else Ball(points[0], 0.0)
     # No ball around a place in a cell is larger than the one around its middle by more than the way there.
     span = np.ptp(points, axis=0)
-    half = max(span.min() / 4, (span.prod() / 2_000) ** (1 / n) / 2, span.max() / 4_000)
+    half = max(span.min() / 4, (span.prod() / 2_000) ** (1 / n) / 2)
+    while np.prod(np.ceil(span / half / 2)) > _MOST_CELLS:  # a box that is nearly flat has many along it
+        half *= 2
     axes = [half * (2 * np.arange(np.ceil(x / half / 2)) + 1) for x in span]
     cells = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, n)
     while True:

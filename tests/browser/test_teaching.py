@@ -1,6 +1,7 @@
 """Slides that keys turn, in light and dark, and a handout of two sheets."""
 
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -61,3 +62,16 @@ def test_what_a_slide_is_about_stands_in_its_middle(visit, book):
 def test_the_handout_takes_two_sheets(visit, book):
     page = visit(book.as_uri(), "handout.html").page
     assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(**A4))) == 2
+
+
+def test_without_scripts_a_deck_is_one_long_page(visit, book):
+    page = visit(book.as_uri(), "slides/5.html", java_script_enabled=False).page
+    tops = [slide.bounding_box() for slide in page.locator(".slides > section").all()]
+    assert len(tops) >= 12
+    assert all(box["height"] > 60 for box in tops)
+    assert all(low["y"] >= high["y"] + high["height"] for high, low in pairwise(tops))
+
+
+def test_paper_is_white_in_the_dark_too(visit, book):
+    page = visit(book.as_uri(), "slides/2.html?print-pdf", color_scheme="dark").page
+    page.locator("html[data-ready][data-theme=light]").wait_for()

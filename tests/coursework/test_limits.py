@@ -1,7 +1,9 @@
 """What an answer may take: time of its own, not that of a busy machine."""
 
+import threading
 import time
 
+import numpy as np
 import pytest
 
 from polyskel_lite.coursework import checks
@@ -35,3 +37,24 @@ def test_a_busy_machine_takes_no_points(called):
         return "there"
 
     assert called(late) == "there"
+
+
+def test_threads_beside_it_take_no_points(called):
+    """As those of a matrix product do: they are let compute, and the answer waits for them."""
+
+    def shared():
+        square = np.ones((1_000_000,))
+        end = time.monotonic() + 0.3
+
+        def work():
+            while time.monotonic() < end:
+                np.sin(square)  # which lets other threads compute
+
+        others = [threading.Thread(target=work) for _ in range(2)]
+        for other in others:
+            other.start()
+        for other in others:
+            other.join()
+        return "there"
+
+    assert called(shared) == "there"
